@@ -23,6 +23,7 @@ EXTRAS: Final[dict[str, tuple[str, ...]]] = {
     "pdf": ("pydyf",),
     "plot": ("matplotlib",),
     "protobuf": ("google",),
+    "remote": ("s3fs", "gcsfs", "adlfs", "fsspec"),
     "robots": ("xacro",),
     "viewer": ("websockets", "yaml"),
     "zenoh": ("zenoh", "xxhash"),

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Iterable
 
+    from coframe._sources.sources import Location
     from coframe.bags.recording import Recording
     from coframe.messages.generated.geometry_msgs.msg import TransformStamped
 
@@ -60,10 +61,10 @@ class RepairReport(NamedTuple):
 
 
 def repair(
-    source: str | os.PathLike[str],
+    source: Location,
     target: str | os.PathLike[str],
     *,
-    statics: str | os.PathLike[str] | None = None,
+    statics: Location | None = None,
     tf_topic: str = "/tf",
     tf_static_topic: str = "/tf_static",
     prefix: str = "",
@@ -78,7 +79,7 @@ def repair(
     Messages of ROS 1 are converted to ROS 2.
 
     Args:
-        source: A file, or a folder of rosbag2.
+        source: A file, a folder of rosbag2, or its URL.
         target: The new folder, which must not exist.
         statics: Another recording, whose static transforms are added for child frames that the robot's topics do not
             contain.
@@ -319,7 +320,7 @@ class _Repair:
         return {channel: list(known.values()) for channel, known in found.values() if known}
 
 
-def _statics_of(path: str | os.PathLike[str]) -> list[TransformStamped]:
+def _statics_of(path: Location) -> list[TransformStamped]:
     """Return the static transforms of another recording.
 
     Raises:

@@ -12,7 +12,7 @@ from coframe.messages.slices import Slices
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from coframe.bags.storage import Channel
+    from coframe.bags.storage import Channel, ListedChunk, Listing
 
 __all__ = ["UnpackedMessages"]
 
@@ -43,6 +43,16 @@ class UnpackedMessages(Storage):
                 yield batch
                 continue
             yield from self._unpack_batch(batch.channel, batch, batch.messages)
+
+    def listing(self) -> Listing | None:
+        """Return the index of the wrapped storage."""
+        return self._packed.listing()
+
+    def read_chunk(self, chunk: ListedChunk) -> Iterator[Batch]:
+        """Yield the messages of a chunk, unpacked."""
+        for batch in self._packed.read_chunk(chunk):
+            if batch.messages is not None:
+                yield from self._unpack_batch(batch.channel, batch, batch.messages)
 
     def _unpack_batch(self, channel: Channel, packed: Batch, messages: Slices) -> Iterator[Batch]:
         """Yield a batch in parts, so that not all unpacked messages are in memory at the same time."""

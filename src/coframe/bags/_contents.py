@@ -5,34 +5,41 @@ from __future__ import annotations
 
 from contextlib import ExitStack
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from coframe import time
 from coframe._output.formatting import join_names
 from coframe._process.freed_memory import collection_paused
+from coframe._sources.remote_error import RemoteFileError
+from coframe._sources.sources import Source
 from coframe.bags._file_discovery import open_files
 from coframe.bags._message_index import MessageIndex, largest_track, reread
 from coframe.bags._problems import Problems
 from coframe.bags._recorded_message import RecordedTopic
 from coframe.bags._recorded_types import RecordedTypes
+from coframe.bags._selective_reading import ChunkReader, listed_span, topic_facts
+from coframe.bags._time_window import ALL_TIME
 from coframe.bags.formats import BUILT_IN, recording_name
 from coframe.bags.namespaces import TransformCollector, report_mixed_clocks
-from coframe.bags.transforms import has_unknown_encoding, ingest_for
+from coframe.bags.transforms import has_unknown_encoding, ingest_for, is_static
 from coframe.errors import CoframeError, RecordingError
 from coframe.frame_names import TF_STATIC_TOPIC, TF_TOPIC, absolute
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
-    from pathlib import Path
 
     import numpy as np
     from numpy.typing import NDArray
 
+    from coframe._sources.sources import Readable
     from coframe.bags._message_index import Track
     from coframe.bags._recording_format import RecordingFormat
+    from coframe.bags._selective_reading import TopicFacts
+    from coframe.bags._time_window import Limits, TimeWindow
     from coframe.bags.namespaces import TransformChoice
-    from coframe.bags.storage import Batch, Channel, Storage
+    from coframe.bags.storage import Batch, Channel, Listing, Storage
     from coframe.buffer import Buffer
     from coframe.messages.slices import Slices
 
@@ -42,6 +49,25 @@ __all__ = ["Contents", "read_contents"]
 
 _MAX_PAUSE = 60 * time.SECOND  # between the files of one recording that do not have the same name
 _BURST_SHARE = 0.01  # of the recording's duration
+
+
+class Buffers(NamedTuple):
+    """The transforms of a recording.
+
+    Attributes:
+        common: All transforms, or those of the first namespace if several contain the same frames.
+        by_namespace: The transforms by namespace.
+    """
+
+    common: Buffer
+    by_namespace: dict[str, Buffer]
+
+
+class _ChannelTrack(NamedTuple):
+    """The messages of a channel, and the function that ingests their transforms; None if they are not needed."""
+
+    track: Track
+    ingest: Callable[[NDArray[np.int64], Slices], None] | None
 
 
 @dataclass(frozen=True)
@@ -55,76 +81,100 @@ class Contents:
         types: The types of the messages.
         index: The position of each message.
         received_span: First and last receive time; None without messages.
+        read_buffers: Returns the transforms; of a recording on a server, it reads them.
     """
 
-    path: Path
+    path: Readable
     problems: Problems
     closing: ExitStack
     types: RecordedTypes
     index: MessageIndex
-    files: list[tuple[Path, int]]
+    files: list[tuple[Readable, int]]
     formats: list[RecordingFormat]
     compression: str
     received_span: tuple[int, int] | None
     topics: dict[str, RecordedTopic]
-    buffer: Buffer
-    buffers: dict[str, Buffer]
+    read_buffers: Callable[[], Buffers]
 
 
 def read_contents(
-    path: Path,
+    path: Readable,
     choice: TransformChoice,
+    window: TimeWindow = ALL_TIME,
     progress: Callable[[int, int], object] | None = None,
     on_transforms: OnTransforms | None = None,
 ) -> Contents:
-    """Read the files of a recording.
+    """Read the files of a recording; of those on servers only the indexes, until more is needed.
 
     Args:
         path: A file, or a folder with files.
         choice: Selects the transforms to read, and the names of their frames.
+        window: Selects the messages to read.
         progress: Called regularly with the number of bytes read and the total number of bytes.
         on_transforms: Called with all messages that contain transforms, in batches.
 
     Raises:
         RecordingError: Nothing can be read, or a chosen topic other than /tf and /tf_static does not exist.
+        ValueError: The window is not valid.
     """
-    reading = _Reading(path, choice, on_transforms)
+    reading = _Reading(path, choice, window, progress or (lambda _done, _total: None), on_transforms)
     try:
         with collection_paused():
-            return reading.read(progress or (lambda _done, _total: None))
+            return reading.read()
+    except RemoteFileError as error:
+        reading.closing.close()
+        raise RecordingError(str(error), hint=error.hint) from None
     except BaseException:
         reading.closing.close()
         raise
 
 
 class _Reading:
-    def __init__(self, path: Path, choice: TransformChoice, on_transforms: OnTransforms | None) -> None:
+    def __init__(
+        self,
+        path: Readable,
+        choice: TransformChoice,
+        window: TimeWindow,
+        progress: Callable[[int, int], object],
+        on_transforms: OnTransforms | None,
+    ) -> None:
         self.closing = ExitStack()
         self._path = path
         self._choice = choice
+        self._window = window
+        self._limits: Limits | None = None
+        self._progress = progress
         self._problems = Problems()
         self._types = RecordedTypes()
         self._index = MessageIndex(path, self._types)
         self._collected = TransformCollector(self._problems, choice, on_transforms)
+        self._is_watched = on_transforms is not None
+        self._tracks: dict[Channel, _ChannelTrack] = {}
 
-    def read(self, progress: Callable[[int, int], object]) -> Contents:
-        """Read everything."""
-        storages, listed_topics, _ = open_files(self._path, self._problems, self.closing)
-        total = sum(storage.size for storage in storages)
-        done = 0
-        for storage in storages:
-            self._read_file(storage, lambda bytes_, before=done: progress(before + bytes_, total))  # type: ignore[misc]
-            done += storage.size
+    def read(self) -> Contents:
+        """Read what is needed at once."""
+        storages, listed_topics, _ = open_files(self._path, self._problems, self.closing, self._progress)
+        may_wait = self._window.is_all and not self._is_watched and any(map(_is_remote, storages))
+        listings = _listings(storages) if may_wait or not self._window.is_all else None
+        if not self._window.is_all:
+            self._limits = self._window.limits(lambda: _whole_span(storages, listings))
+        waiting = None
+        if listings is None:
+            self._read_files(storages)
+        else:
+            waiting = self._read_chunks(listings)
         for channel in listed_topics:
             if channel.topic not in self._index.topics():
                 self._index.add_track(storages[0], channel)
-        self._check_related(storages)
-        span = self._index.span()
-        topics = {name: self._topic(name, span) for name in self._index.topics()}
-        buffers = self._collected.buffers()
-        with_transforms = [track for track in self._index.tracks() if _has_transforms(track.channel)]
-        buffer = self._collected.common_buffer(buffers, lambda: reread(with_transforms))
-        report_mixed_clocks(buffer, self._problems)
+        if waiting is None:
+            self._check_related(storages)
+        span = self._index.span() if waiting is None else listed_span(listings or ())
+        facts = {} if waiting is None else topic_facts(listings or ())
+        topics = {name: self._topic(name, span, facts) for name in self._index.topics()}
+        read_buffers = partial(self._buffers, waiting)
+        if waiting is None:
+            buffers = read_buffers()
+            read_buffers = partial(_same, buffers)
         self._check_tf_topics()
         return Contents(
             path=self._path,
@@ -137,35 +187,76 @@ class _Reading:
             compression=", ".join(sorted(set().union(*(each.compressions for each in storages)))) or "none",
             received_span=span,
             topics=topics,
-            buffer=buffer,
-            buffers=buffers,
+            read_buffers=read_buffers,
         )
 
-    def _read_file(self, storage: Storage, progress: Callable[[int], object]) -> None:
-        tracks: dict[Channel, tuple[Track, Callable[[NDArray[np.int64], Slices], None] | None]] = {}
-        for batch in self._batches(storage, progress):
-            channel = batch.channel
-            if channel not in tracks:
-                tracks[channel] = self._index.add_track(storage, channel), self._collected.ingest(channel)
-                if has_unknown_encoding(channel):
-                    text = (
-                        f"its transforms, {channel.type}, are in the encoding {channel.encoding!r}, which is not known"
-                    )
-                    self._problems.add(f"{channel.topic}: {text}")
-            track, ingest = tracks[channel]
-            if not batch.is_intact and _has_transforms(channel):
-                # A flipped bit in a transform would be a wrong pose without a word.
-                text = (
-                    f"{channel.topic}: messages in damaged chunks were left out, because their transforms may be wrong"
-                )
-                self._problems.add(text, len(batch.received))
-                continue
-            track.add(batch)
-            if batch.messages is not None and ingest is not None:
-                ingest(batch.received, batch.messages)
+    def _read_chunks(self, listings: list[tuple[Storage, Listing]]) -> ChunkReader | None:
+        """Read the chunks of the window; without one, return the reader that waits until chunks are needed."""
+        for storage, _ in listings:
+            self._add_channels(storage)
+        chunks = ChunkReader(listings, self._index, self._has_chosen_transforms, self._add, self._progress)
+        if self._limits is None:
+            self._index.load_with(chunks)
+            return chunks
+        chunks.read_window(self._limits)
+        return None
+
+    def _buffers(self, waiting: ChunkReader | None) -> Buffers:
+        """Return the transforms; read them first if they are waiting in chunks."""
+        if waiting is not None:
+            waiting.read_transforms()
+        buffers = self._collected.buffers()
+        with_transforms = [track for track in self._index.tracks() if _has_transforms(track.channel)]
+        buffer = self._collected.common_buffer(
+            buffers, lambda: reread(with_transforms) if waiting is None else _again(waiting)
+        )
+        report_mixed_clocks(buffer, self._problems)
+        return Buffers(buffer, buffers)
+
+    def _read_files(self, storages: list[Storage]) -> None:
+        total = sum(storage.size for storage in storages)
+        done = 0
+        for storage in storages:
+            for batch in self._batches(storage, lambda bytes_, before=done: self._progress(before + bytes_, total)):  # type: ignore[misc]
+                self._add(storage, batch)
+            self._add_channels(storage)
+            done += storage.size
+
+    def _add_channels(self, storage: Storage) -> None:
+        """Add the channels of a file without messages so far."""
         for channel in storage.channels():
-            if channel not in tracks:
-                self._index.add_track(storage, channel)
+            self._track(storage, channel)
+
+    def _track(self, storage: Storage, channel: Channel) -> _ChannelTrack:
+        if channel not in self._tracks:
+            self._tracks[channel] = _ChannelTrack(
+                self._index.add_track(storage, channel), self._collected.ingest(channel)
+            )
+        return self._tracks[channel]
+
+    def _add(self, storage: Storage, batch: Batch, *, keep: bool = True, ingest: bool = True) -> None:
+        """Add the messages of a batch to the index, and their transforms to the buffers."""
+        channel = batch.channel
+        track, take = self._track(storage, channel)
+        if not track.received and has_unknown_encoding(channel):
+            text = f"its transforms, {channel.type}, are in the encoding {channel.encoding!r}, which is not known"
+            self._problems.add(f"{channel.topic}: {text}")
+        if not batch.is_intact and _has_transforms(channel):
+            # A flipped bit in a transform would be a wrong pose without a word.
+            text = f"{channel.topic}: messages in damaged chunks were left out, because their transforms may be wrong"
+            self._problems.add(text, len(batch.received))
+            return
+        if keep:
+            track.add(batch if self._limits is None else self._limits.messages(batch))
+        if take is None or not ingest:
+            return
+        if self._limits is not None:
+            batch = self._limits.transforms(batch, static=is_static(channel.topic))
+        if batch.messages is not None:
+            take(batch.received, batch.messages)
+
+    def _has_chosen_transforms(self, channel: Channel) -> bool:
+        return _has_transforms(channel) and self._choice.selects(channel.topic)
 
     def _batches(self, storage: Storage, progress: Callable[[int], object]) -> Iterator[Batch]:
         """Yield the batches of a file; an error in the format of another distribution ends this file."""
@@ -210,12 +301,14 @@ class _Reading:
             hint = f"Topics with transforms: {', '.join(existing) or 'none'}."
             raise RecordingError(f"{self._path} has no topic {', '.join(sorted(missing))}", hint=hint)
 
-    def _topic(self, name: str, span: tuple[int, int] | None) -> RecordedTopic:
+    def _topic(self, name: str, span: tuple[int, int] | None, facts: dict[str, TopicFacts]) -> RecordedTopic:
         tracks = self._index.tracks(name)
         main = largest_track(tracks)
         types = {track.channel.type for track in tracks}
         if len(types) > 1:
             self._problems.add(f"{name} has messages of several types: {', '.join(sorted(types))}")
+        if name in facts:
+            return RecordedTopic(name, main.channel.type, *facts[name], main.channel.encoding)
         received = self._index.received(name)
         rate = _rate(received, span)
         return RecordedTopic(name, main.channel.type, len(received), rate, main.channel.encoding)
@@ -228,6 +321,41 @@ def _rate(received: NDArray[np.int64], span: tuple[int, int] | None) -> float:
         return 0.0
     is_burst = elapsed < time.SECOND and (len(received) == 2 or elapsed < _BURST_SHARE * (span[1] - span[0]))
     return 0.0 if is_burst else (len(received) - 1) * time.SECOND / elapsed
+
+
+def _is_remote(storage: Storage) -> bool:
+    return isinstance(storage.path, Source) and storage.path.is_remote
+
+
+def _listings(storages: list[Storage]) -> list[tuple[Storage, Listing]] | None:
+    """Return the indexes of files; None if one of them has none."""
+    listings = []
+    for storage in storages:
+        listing = storage.listing()
+        if listing is None:
+            return None
+        listings.append((storage, listing))
+    return listings
+
+
+def _whole_span(storages: list[Storage], listings: list[tuple[Storage, Listing]] | None) -> tuple[int, int]:
+    """Return the first and last receive time of all messages; without an index, they are all read for this."""
+    if listings is not None:
+        return listed_span(listings) or (0, 0)
+    batches = (batch.received for each in storages for batch in each.batches(lambda _: False, lambda _: None))
+    spans = [(int(received.min()), int(received.max())) for received in batches if len(received)]
+    return (min(first for first, _ in spans), max(last for _, last in spans)) if spans else (0, 0)
+
+
+def _again(waiting: ChunkReader) -> Iterator[tuple[Channel, Slices]]:
+    """Yield the messages with transforms again."""
+    for batch in waiting.transform_batches():
+        if batch.messages is not None:
+            yield batch.channel, batch.messages
+
+
+def _same(buffers: Buffers) -> Buffers:
+    return buffers
 
 
 def _has_transforms(channel: Channel) -> bool:

@@ -14,13 +14,16 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
-from coframe._files.bounded_yaml import read_yaml
 from coframe._files.other_files import BEGINNING, what_else
-from coframe._files.regular_files import UnsuitableFileError, open_regular, read_regular, reading_hint
+from coframe._files.regular_files import open_regular, reading_hint
 from coframe._files.temporary_folders import temporary_folder
 from coframe._output.formatting import join_names
 from coframe._process.optional_imports import pip_install
+from coframe._sources.remote_error import RemoteFileError
+from coframe._sources.sources import Source
 from coframe.bags._compressed_messages import UnpackedMessages
+from coframe.bags._folder_metadata import listed_files, listed_topics, read_metadata, word
+from coframe.bags._remote_files import files_of_source
 from coframe.bags.formats import (
     BUILT_IN,
     COMPRESSED,
@@ -31,22 +34,22 @@ from coframe.bags.formats import (
     is_recording,
     matches,
 )
-from coframe.bags.storage import Channel, unpacked_budget
+from coframe.bags.storage import unpacked_budget
 from coframe.errors import CoframeError, RecordingError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable
     from contextlib import ExitStack
 
+    from coframe._sources.sources import Readable
     from coframe.bags._problems import Problems
     from coframe.bags._recording_format import RecordingFormat
-    from coframe.bags.storage import Storage
+    from coframe.bags.storage import Channel, Storage
 
 __all__ = ["OpenedFiles", "open_files"]
 
 _ZSTD = b"\x28\xb5\x2f\xfd"
 _UNPACKED_PIECE = 1 << 20  # bytes
-_MAX_METADATA_BYTES = 16 << 20
 _MAX_EXPANSION = 16 << 20  # bytes; incompressible data grows by less than this
 
 
@@ -58,38 +61,54 @@ class OpenedFiles(NamedTuple):
     metadata: dict[str, Any]
 
 
-def open_files(path: Path, problems: Problems, closing: ExitStack) -> OpenedFiles:
+def open_files(
+    path: Readable,
+    problems: Problems,
+    closing: ExitStack,
+    progress: Callable[[int, int], object] = lambda _done, _total: None,
+) -> OpenedFiles:
     """Open the files of a recording, in order.
 
     Args:
         path: A file, a folder with files, or the ``metadata.yaml`` of a folder.
         problems: Receives the problems found.
         closing: Receives the clean-up to perform when the recording is closed.
+        progress: Called with the number of bytes of a file that is copied from a server, and its size or 0.
 
     Raises:
         RecordingError: No file can be read.
     """
-    if path.name == METADATA:
-        path = path.parent
     try:
-        metadata = _metadata(path / METADATA, problems) if path.is_dir() else {}
-        candidates = _candidates(path, metadata, problems) if path.is_dir() else [path]
+        if isinstance(path, Source):
+            candidates: list[Readable] = []
+            files, metadata = files_of_source(path, problems)
+            for source in files:
+                source.progress = progress
+                closing.callback(source.close)
+                candidates.append(source)
+        else:
+            path = path.parent if path.name == METADATA else path
+            metadata = read_metadata(path / METADATA, problems) if path.is_dir() else {}
+            candidates = [*_candidates(path, metadata, problems)] if path.is_dir() else [path]
         found = [storage for file in candidates if (storage := _open(file, problems, closing)) is not None]
+    except RemoteFileError as error:
+        raise RecordingError(str(error), hint=error.hint) from None
     except OSError as error:
         raise RecordingError(
             f"{path} cannot be read: {error.strerror or error}",
-            hint=_existing_instead(path) or reading_hint(error),
+            hint=(isinstance(path, Path) and _existing_instead(path)) or reading_hint(error),
         ) from None
     if not found:
         reasons = problems.sentences()
         raise RecordingError(
             f"{path} is not a recording" + (f": {reasons[0].removeprefix(f'{path}: ')}" if reasons else ""),
-            hint=_inner_recordings(path) or f"Give a {file_kinds()}, or the folder that contains such files.",
+            hint=(isinstance(path, Path) and _inner_recordings(path))
+            or f"Give a {file_kinds()}, or the folder that contains such files.",
         )
-    if _word(metadata, "compression_mode").lower() == "message":
-        compression = _word(metadata, "compression_format")
+    if word(metadata, "compression_mode").lower() == "message":
+        compression = word(metadata, "compression_format")
         found = [UnpackedMessages(storage, compression) for storage in found]
-    return OpenedFiles(found, list(_listed_topics(metadata)), metadata)
+    return OpenedFiles(found, list(listed_topics(metadata)), metadata)
 
 
 def _existing_instead(path: Path) -> str:
@@ -121,7 +140,7 @@ def _candidates(folder: Path, metadata: dict[str, Any], problems: Problems) -> l
     """Return the files of a folder that may be part of the recording: those in the metadata first, then others."""
     existing = sorted((file for file in folder.iterdir() if _is_candidate(file, problems)), key=_natural_sort_key)
     in_metadata: list[Path] = []
-    for name in _listed_files(metadata):
+    for name in listed_files(metadata):
         file = folder / Path(name).name
         same = [other for other in existing if other.name in {file.name, f"{file.name}{COMPRESSED}"}]
         in_metadata += same
@@ -148,7 +167,9 @@ def _is_candidate(file: Path, problems: Problems) -> bool:
     return is_named_so or any(matches(each, file, start) for each in formats())
 
 
-def _beginning(file: Path) -> bytes:
+def _beginning(file: Readable) -> bytes:
+    if isinstance(file, Source):
+        return file.read(0, BEGINNING)
     with open_regular(file) as opened:
         return opened.read(BEGINNING)
 
@@ -161,12 +182,13 @@ def _natural_sort_key(file: Path) -> list[tuple[int, int, str]]:
     ]
 
 
-def _open(file: Path, problems: Problems, closing: ExitStack) -> Storage | None:
+def _open(file: Readable, problems: Problems, closing: ExitStack) -> Storage | None:
     start = _beginning(file)
     if start.startswith(_ZSTD):
-        file, start = _unpack_file(file, problems, closing)
+        path = file.copy(closing) if isinstance(file, Source) else file
+        file, start = _unpack_file(path, problems, closing)
     for each in formats():
-        if matches(each, file, start):
+        if matches(each, Path(file.name) if isinstance(file, Source) else file, start):
             return _open_file(each, file, problems, closing)
     names = [each.name for each in formats()]
     reason = next(filter(None, (each.refusal(start) for each in formats())), "")
@@ -175,9 +197,11 @@ def _open(file: Path, problems: Problems, closing: ExitStack) -> Storage | None:
     return None
 
 
-def _open_file(format_: RecordingFormat, file: Path, problems: Problems, closing: ExitStack) -> Storage | None:
+def _open_file(format_: RecordingFormat, file: Readable, problems: Problems, closing: ExitStack) -> Storage | None:
     try:
-        storage = format_.open(file, problems)
+        storage = format_.open_source(file, problems) if isinstance(file, Source) else None
+        if storage is None:
+            storage = format_.open(file.copy(closing) if isinstance(file, Source) else file, problems)
     except (OSError, CoframeError):
         raise
     except Exception as error:
@@ -227,47 +251,3 @@ class _PackedFile:
 
     def read(self, size: int) -> bytes:
         return b"" if self.is_implausible else self._packed.read(size)
-
-
-def _metadata(file: Path, problems: Problems) -> dict[str, Any]:
-    """Return the contents of metadata.yaml; empty if it is missing or damaged, because it is not required."""
-    found: dict[str, Any] = {}
-    try:
-        text = read_regular(file, _MAX_METADATA_BYTES)
-        found = dict(read_yaml(text, _MAX_METADATA_BYTES)["rosbag2_bagfile_information"])
-    except FileNotFoundError:
-        pass
-    except UnsuitableFileError as error:
-        problems.add(f"{METADATA} cannot be read: {error.strerror}; the files were read without it")
-    except ModuleNotFoundError:
-        problems.add(f"{METADATA} was not read: the package PyYAML is not installed")
-    except (ValueError, TypeError, KeyError) as error:
-        reason = " ".join(str(error).split())[:200]
-        problems.add(f"{METADATA} is damaged ({reason}); the files were read without it")
-    return found
-
-
-def _word(metadata: dict[str, Any], key: str) -> str:
-    """Return a string value; "" for another type."""
-    value = metadata.get(key)
-    return value if isinstance(value, str) else ""
-
-
-def _listed_topics(metadata: dict[str, Any]) -> Iterator[Channel]:
-    """Yield the topics in the metadata, which also lists those without messages."""
-    entries = metadata.get("topics_with_message_count")
-    for entry in entries if isinstance(entries, list) else []:
-        topic = entry.get("topic_metadata") if isinstance(entry, dict) else None
-        if isinstance(topic, dict) and isinstance(topic.get("name"), str) and isinstance(topic.get("type"), str):
-            offered = topic.get("offered_qos_profiles")
-            yield Channel(
-                topic["name"],
-                topic["type"],
-                _word(topic, "serialization_format") or "cdr",
-                offered_qos=offered if isinstance(offered, str) else "",
-            )
-
-
-def _listed_files(metadata: dict[str, Any]) -> list[str]:
-    names = metadata.get("relative_file_paths")
-    return [name for name in names if isinstance(name, str) and name] if isinstance(names, list) else []

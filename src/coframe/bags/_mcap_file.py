@@ -6,7 +6,7 @@ from __future__ import annotations
 import struct
 import sys
 import zlib
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -14,16 +14,25 @@ from coframe import _core
 from coframe._output.formatting import count
 from coframe.bags._compression import MAX_UNPACKED_BYTES, DamagedError, unpack
 from coframe.bags.formats import MCAP
-from coframe.bags.storage import MAX_DAMAGED_PLACES, Batch, Channel, ChunkedStorage, next_chunk
+from coframe.bags.storage import (
+    MAX_DAMAGED_PLACES,
+    Batch,
+    Channel,
+    ChunkedStorage,
+    ListedChunk,
+    Listing,
+    are_consistent,
+    next_chunk,
+)
 from coframe.messages.schemas import ros_name
 from coframe.messages.slices import Slices
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Iterator
-    from pathlib import Path
 
     from numpy.typing import NDArray
 
+    from coframe._sources.sources import Readable
     from coframe.bags._problems import Problems
 
 __all__ = ["McapStorage"]
@@ -38,7 +47,23 @@ _BLOCK_BYTES = 4 << 20  # bytes to read at once from records outside chunks
 _FOOTER_RECORD = struct.Struct("<BQQQI")  # opcode, length, start of the summary, of its offsets, CRC
 _STATISTICS_HEAD = struct.Struct("<QHIIIIQQI")  # messages, other counts, times, bytes of the counts by channel
 _CHANNEL_COUNT = struct.Struct("<HQ")
+_CHUNK_INDEX_HEAD = struct.Struct("<QQQQI")  # times, offset, size, bytes of the offsets by channel
+_MAX_GAPS = 100  # parts of the data section that the index does not describe, such as attachments
+_MAX_GAP_RECORDS = 1000
 _CRC_AND_MAGIC = 4 + len(MCAP.magic)  # bytes at the end of the file that the CRC of the summary does not cover
+
+
+class _ChunkIndex(NamedTuple):
+    """What the summary says about a chunk: places in the file, receive times, and the numbers of channels."""
+
+    offset: int
+    end: int
+    index_end: int  # of the records behind the chunk that list its messages
+    first: int
+    last: int
+    channels: tuple[int, ...]
+    compression: str
+    unpacked: int
 
 
 class McapStorage(ChunkedStorage):
@@ -46,7 +71,7 @@ class McapStorage(ChunkedStorage):
 
     format = MCAP
 
-    def __init__(self, path: Path, problems: Problems) -> None:
+    def __init__(self, path: Readable, problems: Problems) -> None:
         super().__init__(path, problems)
         self._schemas: dict[int, tuple[str, str, bytes]] = {}
         self._channels: dict[int, Channel] = {}
@@ -54,6 +79,7 @@ class McapStorage(ChunkedStorage):
         self._counts: dict[int, int] = {}  # messages by channel
         self._listed: dict[int, int] | None = None  # the same by the statistics in the summary
         self._listed_total: int | None = None
+        self._chunk_indexes: list[_ChunkIndex] = []
 
     def channels(self) -> list[Channel]:
         """Return the channels found so far."""
@@ -81,6 +107,58 @@ class McapStorage(ChunkedStorage):
             self.add_problem(f"there is no chunk at byte {min(missing)}, where the index lists one", len(missing))
         self._check_statistics()
         progress(self.size)
+
+    def listing(self) -> Listing | None:
+        """Return the index in the summary; None if there is none, or if it cannot be that of all messages."""
+        self._read_summary()
+        indexes = sorted(self._chunk_indexes)
+        chunks = [
+            ListedChunk(each.offset, each.end, each.first, each.last, self._listed_channels(each), each.unpacked)
+            for each in indexes
+        ]
+        ends = [len(MCAP.magic), *(each.index_end for each in indexes)]
+        gaps = [(end, index.offset) for end, index in zip(ends, indexes, strict=False) if end != index.offset]
+        is_complete = (
+            self._listed is not None
+            and bool(chunks)
+            and are_consistent(chunks, len(MCAP.magic), self.size)
+            and len(gaps) <= _MAX_GAPS
+            and not any(self._has_messages(*gap) for gap in [*gaps, (ends[-1], self.size)])
+        )
+        if not is_complete:
+            return None
+        for index in indexes:
+            self.add_chunk(index.offset)
+            self.compressions.add(index.compression)
+        counts = {channel: (self._listed or {}).get(number, 0) for number, channel in self._channels.items()}
+        return Listing(chunks, counts)
+
+    def _listed_channels(self, index: _ChunkIndex) -> frozenset[Channel] | None:
+        if not index.channels or not all(number in self._channels for number in index.channels):
+            return None
+        return frozenset(self._channels[number] for number in index.channels)
+
+    def _has_messages(self, offset: int, end: int) -> bool:
+        """Return whether a part of the file has messages or chunks that the index does not list."""
+        for _ in range(_MAX_GAP_RECORDS):
+            head = self.bytes_at(offset, _RECORD.size)
+            if offset >= end or len(head) < _RECORD.size:
+                return False
+            opcode, length = _RECORD.unpack(head)
+            if opcode in {_MESSAGE, _CHUNK}:
+                return True
+            if opcode in {_DATA_END, _FOOTER} or not _is_record(opcode):
+                return opcode not in {_DATA_END, _FOOTER}
+            offset += _RECORD.size + length
+        return True
+
+    def read_chunk(self, chunk: ListedChunk) -> Iterator[Batch]:
+        """Yield the messages of a chunk of the index."""
+        head = self.bytes_at(chunk.offset, _RECORD.size)
+        if len(head) < _RECORD.size or head[0] != _CHUNK:
+            self.add_problem(f"there is no chunk at byte {chunk.offset}, where the index lists one")
+            return
+        yield from self._chunk_batches(chunk.offset)
 
     def _walk(self, chunks: list[int]) -> Iterator[tuple[int, int, int]]:
         """Yield offset, opcode and end of each record of the data section; continue at the next chunk after damage."""
@@ -143,18 +221,44 @@ class McapStorage(ChunkedStorage):
         summary = self.bytes_at(start, self.size - start)
         if crc and zlib.crc32(summary[:-_CRC_AND_MAGIC]) != crc:  # A recorder may have been killed while writing it.
             return []
-        chunks, position = [], 0
+        position = 0
+        self._chunk_indexes = []
         while position + _RECORD.size <= len(summary):
             opcode, length = _RECORD.unpack_from(summary, position)
             content = summary[position + _RECORD.size : position + _RECORD.size + length]
             if opcode == _STATISTICS:
                 self._read_statistics(content)
             elif opcode == _CHUNK_INDEX:
-                chunks.append(int.from_bytes(content[16:24], "little"))
+                self._read_chunk_index(content)
             elif opcode in {_SCHEMA, _CHANNEL}:
                 self._define(opcode, content)
             position += _RECORD.size + length
-        return sorted(chunk for chunk in chunks if 0 < chunk < self.size)
+        return sorted(each.offset for each in self._chunk_indexes if 0 < each.offset < self.size)
+
+    def _read_chunk_index(self, content: bytes) -> None:
+        try:
+            first, last, offset, size, channels = _CHUNK_INDEX_HEAD.unpack_from(content)
+            numbers = [number for number, _ in _CHANNEL_COUNT.iter_unpack(content[_CHUNK_INDEX_HEAD.size :][:channels])]
+            position = _CHUNK_INDEX_HEAD.size + channels
+            (after,) = struct.unpack_from("<Q", content, position)
+            compression, position = _text(content, position + 8)
+            _, unpacked = struct.unpack_from("<QQ", content, position)
+        except (struct.error, ValueError):
+            offset = int.from_bytes(content[16:24], "little")
+            first = last = size = after = unpacked = 0
+            numbers, compression = [], ""
+        self._chunk_indexes.append(
+            _ChunkIndex(
+                offset,
+                offset + size,
+                offset + size + after,
+                first,
+                last,
+                tuple(numbers),
+                compression or "none",
+                unpacked,
+            )
+        )
 
     def _read_statistics(self, content: bytes) -> None:
         """Read how many messages the recorder counted."""

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, cast
 import numpy as np
 
 from coframe.bags._compression import DamagedError
-from coframe.bags.storage import Batch, Channel, Storage
+from coframe.bags.storage import Batch, Channel, Storage, read_at
 from coframe.errors import RecordingError
 from coframe.messages import serialize
 from coframe.messages.definition_texts import definition_of
@@ -66,6 +66,7 @@ class MessageFile(Storage):
     def __init__(self, path: Path, problems: Problems, format_: RecordingFormat) -> None:
         super().__init__(path, problems)
         self.format = format_
+        self._path = path
         self._lock = threading.Lock()
         self._bytes = cast("BinaryIO", tempfile.TemporaryFile())  # noqa: SIM115 - `close` closes it
         self._offsets = array("Q", [0])
@@ -95,7 +96,7 @@ class MessageFile(Storage):
     def _valid_messages(self) -> Iterator[tuple[Channel, int, bytes]]:
         """Yield the messages of the format that are valid."""
         try:
-            for channel, received, data in self.format.serialized_messages(self.path):
+            for channel, received, data in self.format.serialized_messages(self._path):
                 self._channels[channel] = None
                 time = _integer(received)
                 if time is None:
@@ -111,6 +112,7 @@ class MessageFile(Storage):
             with self._lock:
                 self._bytes.seek(self._offsets[-1])
                 self._bytes.write(data)
+                self._bytes.flush()
         except OSError as error:
             raise RecordingError(
                 f"the messages of {self.path} cannot be written to a temporary file: {error.strerror or error}",
@@ -129,8 +131,7 @@ class MessageFile(Storage):
         with self._lock:
             if self._bytes.closed:
                 raise DamagedError("the recording is closed")
-            self._bytes.seek(start)
-            return self._bytes.read(min(size, end - start))
+            return read_at(self._bytes, start, min(size, end - start))
 
     def close(self) -> None:
         """Close the temporary file, which deletes it."""

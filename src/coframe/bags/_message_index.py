@@ -7,7 +7,7 @@ from array import array
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 
@@ -18,19 +18,20 @@ from coframe.messages.header_peek import STAMP_BYTES
 from coframe.messages.slices import Slices
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-    from pathlib import Path
+    from collections.abc import Callable, Collection, Iterable, Iterator
 
     from numpy.typing import NDArray
 
+    from coframe._sources.sources import Readable
     from coframe.bags._recorded_types import RecordedTypes
     from coframe.bags.storage import Batch, Channel, Storage
     from coframe.messages.header_peek import StampReader
 
-__all__ = ["MessageIndex", "Track", "largest_track", "reread"]
+__all__ = ["MessageIndex", "MessageLoader", "Track", "largest_track", "reread"]
 
 _MIN_CACHED_MESSAGES = 8  # of a topic whose rows are recomputed: a recording can have tens of thousands of such topics
 _CLOCK_TYPE = "rosgraph_msgs/msg/Clock"
+_Result = TypeVar("_Result")
 
 
 @dataclass(eq=False, slots=True)
@@ -75,6 +76,16 @@ class _Rows(NamedTuple):
     received: NDArray[np.int64]
 
 
+class MessageLoader(Protocol):
+    """Adds messages to the tracks of a recording when they are needed."""
+
+    def load(self, topics: Collection[str], start: int | None, stop: int | None) -> None:
+        """Add the messages on topics that were received from ``start`` until ``stop``, and others."""
+
+    def load_first(self, topic: str) -> None:
+        """Add the first messages on a topic, and others."""
+
+
 class MessageIndex:
     """Finds the messages of a recording by topic and time, and reads their bytes.
 
@@ -85,8 +96,9 @@ class MessageIndex:
         types: The types of its messages.
     """
 
-    def __init__(self, path: Path, types: RecordedTypes) -> None:
+    def __init__(self, path: Readable, types: RecordedTypes) -> None:
         self._path = path
+        self._loader: MessageLoader | None = None
         self._types = types
         self._closed = False
         self._tracks: dict[str, list[Track]] = {}
@@ -101,6 +113,26 @@ class MessageIndex:
         self._storages.setdefault(storage, len(self._storages))
         self._tracks.setdefault(channel.topic, []).append(track)
         return track
+
+    def load_with(self, loader: MessageLoader) -> None:
+        """Let a loader add messages to the tracks when they are needed."""
+        self._loader = loader
+
+    def forget(self, topics: Iterable[str]) -> None:
+        """Forget what was computed for topics whose tracks have more messages now."""
+        for topic in topics:
+            for cache in (self._rows, self._stamps, self._by_stamp):
+                cache.pop(topic, None)
+
+    def while_open(self, function: Callable[[], _Result]) -> _Result:
+        """Return the result of a function that reads messages.
+
+        Raises:
+            RecordingError: The files are closed.
+        """
+        if self._loader is not None:
+            self._check_open()
+        return function()
 
     def close(self) -> None:
         """Make all further reads raise an error, because the files are closed."""
@@ -148,7 +180,10 @@ class MessageIndex:
 
     def first_message(self, topic: str) -> tuple[Channel, bytes] | None:
         """Return the first message of a topic that can be read, with its channel; None if there is none."""
-        rows = self._rows_of(topic)
+        if self._loader is not None:
+            self._check_open()
+            self._loader.load_first(topic)
+        rows = self._rows_in_memory(topic)
         for number, position in zip(rows.of_track, rows.positions, strict=True):
             if (data := self._bytes(rows.tracks[number], int(position))) is not None:
                 return rows.tracks[number].channel, data
@@ -193,7 +228,9 @@ class MessageIndex:
 
         Messages with equal times come in the order in which they were written.
         """
-        tracks = self.tracks() if topics is None else [track for name in topics for track in self.tracks(name)]
+        topics = list(self._tracks if topics is None else topics)
+        self._complete(topics, start, stop)
+        tracks = [track for name in topics for track in self.tracks(name)]
         if not tracks:
             return
         received = np.concatenate([_int64(track.received) for track in tracks])
@@ -234,7 +271,17 @@ class MessageIndex:
         files = np.repeat([self._storages[track.storage] for track in tracks], [len(each.received) for each in tracks])
         return np.lexsort((positions, files, received))
 
+    def _complete(self, topics: Collection[str], start: int | None = None, stop: int | None = None) -> None:
+        """Read the positions of the messages on topics, if they have not been read."""
+        if self._loader is not None:
+            self._check_open()
+            self._loader.load(topics, start, stop)
+
     def _rows_of(self, topic: str) -> _Rows:
+        self._complete((topic,))
+        return self._rows_in_memory(topic)
+
+    def _rows_in_memory(self, topic: str) -> _Rows:
         if topic in self._rows:
             return self._rows[topic]
         tracks = self._tracks[topic]

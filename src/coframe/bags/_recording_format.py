@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
     from pathlib import Path
 
+    from coframe._sources.sources import Readable
     from coframe.bags._problems import Problems
     from coframe.bags.storage import Channel, Storage
     from coframe.messages import Message
@@ -136,6 +137,19 @@ class RecordingFormat:
         from coframe.bags._message_file import MessageFile  # noqa: PLC0415 - it imports NumPy
 
         return MessageFile(path, problems, self)
+
+    def open_source(self, source: Readable, problems: Problems) -> Storage | None:
+        """Open a file that has no path, such as one on a server, to read parts of it; None: `open` reads a copy of it.
+
+        Args:
+            source: The file.
+            problems: Receives what cannot be read.
+
+        Raises:
+            OSError: The file cannot be read.
+        """
+        del source, problems
+        return None
 
     @property
     def is_written(self) -> bool:

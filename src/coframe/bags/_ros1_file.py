@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import struct
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -12,13 +12,22 @@ from coframe import time
 from coframe.bags._compression import MAX_UNPACKED_BYTES, DamagedError, unpack
 from coframe.bags._offered_qos import OfferedQos, to_yaml
 from coframe.bags.formats import ROS1
-from coframe.bags.storage import MAX_DAMAGED_PLACES, Batch, Channel, ChunkedStorage, next_chunk
+from coframe.bags.storage import (
+    MAX_DAMAGED_PLACES,
+    Batch,
+    Channel,
+    ChunkedStorage,
+    ListedChunk,
+    Listing,
+    are_consistent,
+    next_chunk,
+)
 from coframe.messages.slices import Slices
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
-    from pathlib import Path
 
+    from coframe._sources.sources import Readable
     from coframe.bags._problems import Problems
 
 __all__ = ["Ros1Storage"]
@@ -27,7 +36,17 @@ _MESSAGE, _CHUNK, _CHUNK_INFO, _CONNECTION = 0x02, 0x05, 0x06, 0x07
 _KNOWN_OPCODES = {0x02, 0x03, 0x04, 0x05, 0x06, 0x07}
 _LENGTH = struct.Struct("<I")
 _TIME = struct.Struct("<II")
+_COUNT = struct.Struct("<II")  # connection, messages
 _MAX_HEADER_BYTES = 1 << 16
+
+
+class _ChunkInfo(NamedTuple):
+    """What the index says about a chunk: its offset, receive times, and messages by connection."""
+
+    offset: int
+    first: int
+    last: int
+    counts: dict[int, int]
 
 
 class Ros1Storage(ChunkedStorage):
@@ -35,9 +54,11 @@ class Ros1Storage(ChunkedStorage):
 
     format = ROS1
 
-    def __init__(self, path: Path, problems: Problems) -> None:
+    def __init__(self, path: Readable, problems: Problems) -> None:
         super().__init__(path, problems)
         self._channels: dict[int, Channel] = {}
+        self._chunk_infos: list[_ChunkInfo] = []
+        self._index_start = self._chunk_count = 0
 
     def channels(self) -> list[Channel]:
         """Return the channels found so far."""
@@ -57,6 +78,32 @@ class Ros1Storage(ChunkedStorage):
             elif opcode == _MESSAGE:
                 yield from self._inner(self.bytes_at(offset, end - offset), offset)
         progress(self.size)
+
+    def listing(self) -> Listing | None:
+        """Return the index at the end of the file; None if there is none."""
+        self._read_index()
+        infos = sorted(self._chunk_infos)
+        ends = [*(info.offset for info in infos[1:]), self._index_start]
+        counts = dict.fromkeys(self._channels.values(), 0)
+        chunks = []
+        for info, end in zip(infos, ends, strict=True):
+            if not all(number in self._channels for number in info.counts):
+                return None
+            for number, messages in info.counts.items():
+                counts[self._channels[number]] += messages
+            listed = frozenset(self._channels[number] for number in info.counts)
+            chunks.append(ListedChunk(info.offset, end, info.first, info.last, listed or None, 0))
+        if not chunks or len(chunks) != self._chunk_count or not are_consistent(chunks, len(ROS1.magic), self.size):
+            return None
+        for chunk in chunks:
+            self.add_chunk(chunk.offset)
+        header, _, _ = self._record(chunks[0].offset)
+        self.compressions.add(_compression(header))
+        return Listing(chunks, counts)
+
+    def read_chunk(self, chunk: ListedChunk) -> Iterator[Batch]:
+        """Yield the messages of a chunk of the index."""
+        yield from self._chunk_batches(chunk.offset)
 
     def _walk(self, chunks: list[int]) -> Iterator[tuple[int, int, dict[bytes, bytes], int, int]]:
         """Yield offset, opcode, header, start and end of each record; continue at the next chunk after damage."""
@@ -81,20 +128,21 @@ class Ros1Storage(ChunkedStorage):
 
     def _read_index(self) -> list[int]:
         """Read the connections in the index at the end of the file; return the offsets of the chunks it lists."""
-        chunks: list[int] = []
+        self._chunk_infos = []
         try:
             header, _, _ = self._record(len(ROS1.magic))
-            offset = int.from_bytes(header.get(b"index_pos", b"")[:8], "little")
+            offset = self._index_start = int.from_bytes(header.get(b"index_pos", b"")[:8], "little")
+            self._chunk_count = int.from_bytes(header.get(b"chunk_count", b"")[:4], "little")
             while len(ROS1.magic) < offset < self.size:
                 header, start, end = self._record(offset)
                 if _opcode(header) == _CONNECTION:
                     self._connect(header, self.bytes_at(start, end - start))
                 elif _opcode(header) == _CHUNK_INFO:
-                    chunks.append(int.from_bytes(header.get(b"chunk_pos", b"")[:8], "little"))
+                    self._chunk_infos.append(_chunk_info(header, self.bytes_at(start, end - start)))
                 offset = end
         except DamagedError:
             pass  # A recorder that is killed leaves a bag without an index.
-        return sorted(chunk for chunk in chunks if len(ROS1.magic) < chunk < self.size)
+        return sorted(info.offset for info in self._chunk_infos if len(ROS1.magic) < info.offset < self.size)
 
     def _record(self, offset: int, *, may_be_truncated: bool = True) -> tuple[dict[bytes, bytes], int, int]:
         """Return the header of a record of the file and the start and end of its data; a chunk may be truncated."""
@@ -128,7 +176,7 @@ class Ros1Storage(ChunkedStorage):
     def unpack_chunk(self, offset: int) -> bytes:
         """Return the records of the chunk at an offset of the file."""
         header, start, end = self._record(offset)
-        compression = header.get(b"compression", b"none").decode("ascii", "replace")
+        compression = _compression(header)
         self.compressions.add(compression)
         size = int.from_bytes(header.get(b"size", b"")[:4], "little")
         packed = self.bytes_at(start, min(end, self.size) - start)
@@ -154,8 +202,7 @@ class Ros1Storage(ChunkedStorage):
             if opcode == _CONNECTION:
                 self._connect(header, data[start:end])
             elif opcode == _MESSAGE:
-                seconds, nanoseconds = _TIME.unpack(header.get(b"time", b"").ljust(8, b"\0")[:8])
-                row = (seconds * time.SECOND + nanoseconds, base + position, start, end)
+                row = (_time(header, b"time"), base + position, start, end)
                 found.setdefault(_number(header), []).append(row)
             position = end
         for number, rows in found.items():
@@ -193,6 +240,21 @@ class Ros1Storage(ChunkedStorage):
             offered_qos=to_yaml([OfferedQos(1, transient_local=True)]) if fields.get(b"latching") == b"1" else "",
             publisher=fields.get(b"callerid", b"").decode("utf-8", "replace"),
         )
+
+
+def _chunk_info(header: dict[bytes, bytes], counts: bytes) -> _ChunkInfo:
+    offset = int.from_bytes(header.get(b"chunk_pos", b"")[:8], "little")
+    whole = counts[: len(counts) // _COUNT.size * _COUNT.size]
+    return _ChunkInfo(offset, _time(header, b"start_time"), _time(header, b"end_time"), dict(_COUNT.iter_unpack(whole)))
+
+
+def _time(header: dict[bytes, bytes], field: bytes) -> int:
+    seconds, nanoseconds = _TIME.unpack(header.get(field, b"").ljust(8, b"\0")[:8])
+    return int(seconds * time.SECOND + nanoseconds)
+
+
+def _compression(header: dict[bytes, bytes]) -> str:
+    return header.get(b"compression", b"none").decode("ascii", "replace")
 
 
 def _record_in(data: bytes, position: int) -> tuple[dict[bytes, bytes], int, int]:

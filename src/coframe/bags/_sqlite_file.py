@@ -51,6 +51,7 @@ class SqliteStorage(Storage):
 
     def __init__(self, path: Path, problems: Problems) -> None:
         super().__init__(path, problems)
+        self._path = path
         self._lock = threading.Lock()
         self._database = Database(path, self.add_problem)
         self._channels: dict[int, Channel] = {}
@@ -132,7 +133,7 @@ class SqliteStorage(Storage):
 
     def _note_damage(self, error: Exception) -> None:
         self._damage = str(error)
-        self._leaves = self._leaves or Leaves(self.path)
+        self._leaves = self._leaves or Leaves(self._path)
 
     def _note_rows(self, rows: list[tuple[Any, ...]]) -> None:
         self._found += len(rows)
@@ -237,10 +238,10 @@ class SqliteStorage(Storage):
 
     def _without_tables(self) -> str:
         """Return why the tables can be missing."""
-        with open_regular(self.path) as file:
+        with open_regular(self._path) as file:
             is_in_wal_mode = file.read(20)[18:] == b"\x02\x02"
         log = f"{self.path.name}-wal"
-        if is_in_wal_mode and not self.path.with_name(log).exists():
+        if is_in_wal_mode and not self._path.with_name(log).exists():
             return f"its recorder wrote to {log}, which is missing; copy this file as well"
         return "the file is not a recording of rosbag2"
 
@@ -268,7 +269,7 @@ class SqliteStorage(Storage):
     def _found_on_leaves(self, number: int) -> bytes:
         """Return the data of a row that was read before, but that a search in the damaged tree does not find."""
         with self._lock:
-            self._leaves = self._leaves or Leaves(self.path)
+            self._leaves = self._leaves or Leaves(self._path)
             if not self._are_leaves_known:
                 self._are_leaves_known = True
                 self._on_leaves |= {row.number: row for row in self._leaves.rows() if row.is_message}

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from coframe._sources.sources import Location
     from coframe.bags._trajectory_query import TrajectoryQuery
     from coframe.transform.transform import Transform
 
@@ -85,7 +86,7 @@ def query_recording(bag: str, query: TrajectoryQuery, folder: str) -> QueryResul
 
 
 def query_recordings(
-    bags: Sequence[str | os.PathLike[str]],
+    bags: Sequence[Location],
     query: TrajectoryQuery,
     folder: str | os.PathLike[str],
     *,

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
     from datetime import timedelta
 
+    from coframe._sources.sources import Location
     from coframe.bags.recording import Recording
     from coframe.bags.storage import Channel
 
@@ -52,7 +53,7 @@ class CopyReport(NamedTuple):
 
 
 def copy_recordings(
-    sources: Sequence[str | os.PathLike[str]],
+    sources: Sequence[Location],
     target: str | os.PathLike[str],
     *,
     topics: Iterable[str] | None = None,
@@ -75,7 +76,7 @@ def copy_recordings(
     ``/tf``, ``/clock`` and ``/rosout``. The notes of the report say which.
 
     Args:
-        sources: Files, or folders of rosbag2.
+        sources: Files, folders of rosbag2, or their URLs.
         target: The new folder, which must not exist.
         topics: Names of the topics to copy; None for all. Each must exist in at least one recording.
         span: Returns the first receive time and the end (excluded) of the messages of a recording, in nanoseconds.

@@ -20,6 +20,7 @@ from coframe.interfaces.problems import report
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from coframe._sources.sources import Readable
     from coframe.bags._problems import Problems
     from coframe.bags._recording_format import FileWriter
     from coframe.bags.storage import Storage
@@ -56,9 +57,13 @@ class Mcap(RecordingFormat):
 
     def open(self, path: Path, problems: Problems) -> Storage:
         """Open a file."""
+        return self.open_source(path, problems)
+
+    def open_source(self, source: Readable, problems: Problems) -> Storage:
+        """Open a file, also on a server."""
         from coframe.bags._mcap_file import McapStorage  # noqa: PLC0415 - see the base class
 
-        return McapStorage(path, problems)
+        return McapStorage(source, problems)
 
     def create(self, path: Path, compression: str) -> FileWriter:
         """Create a file with compressed chunks."""
@@ -115,9 +120,13 @@ class Ros1(RecordingFormat):
 
     def open(self, path: Path, problems: Problems) -> Storage:
         """Open a file."""
+        return self.open_source(path, problems)
+
+    def open_source(self, source: Readable, problems: Problems) -> Storage:
+        """Open a file, also on a server."""
         from coframe.bags._ros1_file import Ros1Storage  # noqa: PLC0415 - see the base class
 
-        return Ros1Storage(path, problems)
+        return Ros1Storage(source, problems)
 
     def recording_name(self, file: str) -> str:
         """Return the common part of the file names, without the start time of each file: ``2024-05-01-10-00-00_0``."""
@@ -191,7 +200,7 @@ def matches(format_: RecordingFormat, path: Path, beginning: bytes) -> bool:
         return False
 
 
-def has_known_suffix(path: Path) -> bool:
+def has_known_suffix(path: PurePath) -> bool:
     """Return whether a path has the suffix of a format, also in front of a compression suffix."""
     return PurePath(path.name.removesuffix(COMPRESSED)).suffix.lower() in suffixes()
 
@@ -201,7 +210,7 @@ def is_recording(path: Path) -> bool:
     return is_file(path / METADATA) or (has_known_suffix(path) and is_file(path))
 
 
-def recording_name(path: Path, format_: RecordingFormat) -> str:
+def recording_name(path: Readable, format_: RecordingFormat) -> str:
     """Return the common part of the file names of a recording: ``run`` for ``run_0.mcap``."""
     name = path.name.removesuffix(COMPRESSED)
     return format_.recording_name(name.rpartition(".")[0] or path.name)

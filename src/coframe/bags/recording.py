@@ -15,25 +15,31 @@ from coframe import time
 from coframe._base_error import CoframeWarning
 from coframe._output import html_tables
 from coframe._output.formatting import count
+from coframe._sources.remote_error import RemoteFileError
+from coframe._sources.sources import as_source
 from coframe.bags._contents import read_contents
 from coframe.bags._decoding import decoder
 from coframe.bags._recorded_message import RecordedMessage, RecordedTopic
 from coframe.bags._table import edge_table
+from coframe.bags._time_window import ALL_TIME, TimeWindow
 from coframe.bags.namespaces import TransformChoice, main_span
 from coframe.bags.tables import TableQuery
-from coframe.errors import DecodeError
+from coframe.errors import DecodeError, RecordingError
 from coframe.messages.header_peek import HEADER_BYTES
 
 if TYPE_CHECKING:
-    import os
     from collections.abc import Callable, Iterable, Iterator, Sequence
+    from typing import BinaryIO
 
     from numpy.typing import ArrayLike, NDArray
+    from typing_extensions import Buffer as BytesLike
     from typing_extensions import Self
 
-    from coframe.bags._contents import Contents
+    from coframe._sources.sources import Location, Readable
+    from coframe.bags._contents import Buffers, Contents
     from coframe.bags.storage import Channel
     from coframe.bags.tables import ColumnLike, Method, Table
+    from coframe.buffer import Buffer
     from coframe.buffer.gaps import OnGap
     from coframe.messages.slices import Slices
     from coframe.time import DurationLike, StampLike
@@ -43,8 +49,10 @@ __all__ = ["RecordedMessage", "RecordedTopic", "Recording", "open_bag"]
 
 
 def open_bag(
-    path: str | os.PathLike[str],
+    path: Location | BytesLike | BinaryIO,
     *,
+    start: StampLike | str | None = None,
+    stop: StampLike | str | None = None,
     namespace: str | None = None,
     tf_topic: str | None = None,
     tf_static_topic: str | None = None,
@@ -56,8 +64,16 @@ def open_bag(
 ) -> Recording:
     """Open a recording: rosbag2 (MCAP or SQLite, any compression), a bag of ROS 1, or MCAP with Foxglove's transforms.
 
+    Of an MCAP file or a ROS 1 bag on a server, only the index is read; messages and transforms follow when they are
+    needed. Their number and rate in ``topics`` are then those of the index.
+
     Args:
-        path: A file, or a folder of rosbag2, with or without its metadata.
+        path: A file, or a folder of rosbag2, with or without its metadata; its URL (``https://``, ``s3://``, ``gs://``,
+            ``az://``); the bytes of a file; or a file object for bytes, which is not closed.
+        start: Read only messages received from this time on: a stamp, or a string such as ``"10min"`` after the first
+            message or ``"-2min"`` before the last one. Dynamic transforms are read from 10 s before until 10 s after
+            the messages, static ones from the beginning.
+        stop: The end of these messages, in the same form.
         namespace: Read only the transforms of a namespace, such as ``/robot1`` for ``/robot1/tf``; None: all.
         tf_topic: Read only the transforms on this topic and on ``tf_static_topic``. None means all topics, or ``/tf``
         if only the other topic is given.
@@ -74,7 +90,8 @@ def open_bag(
 
     Raises:
         RecordingError: Nothing can be read, or a given topic other than /tf and /tf_static does not exist.
-        ValueError: The prefix begins with a slash.
+        ValueError: The prefix begins with a slash, ``start`` or ``stop`` is not a time, or ``stop`` is not later.
+        TypeError: ``path`` is of another type, or a file object for text.
 
     Example:
         >>> import coframe
@@ -85,45 +102,56 @@ def open_bag(
         nowhere.mcap cannot be read: No such file or directory
     """
     choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep, transforms)
-    return open_chosen(path, choice, progress=progress, on_transforms=on_transforms)
+    window = TimeWindow(start, stop)
+    return open_chosen(path, choice, window=window, progress=progress, on_transforms=on_transforms)
 
 
 def open_chosen(
-    path: str | os.PathLike[str],
+    path: Location | BytesLike | BinaryIO,
     choice: TransformChoice,
     *,
+    window: TimeWindow = ALL_TIME,
     progress: Callable[[int, int], object] | None = None,
     on_transforms: Callable[[Channel, NDArray[np.int64], Slices], object] | None = None,
 ) -> Recording:
-    """Open a recording as :func:`open_bag` does, given the choice of transforms as one value."""
-    return Recording(read_contents(Path(path), choice, progress, on_transforms), choice)
+    """Open a recording as :func:`open_bag` does, given the choice of transforms and of messages as values."""
+    try:
+        source = as_source(path)
+    except RemoteFileError as error:
+        raise RecordingError(str(error), hint=error.hint) from None
+    return Recording(read_contents(source, choice, window, progress, on_transforms), choice, window)
+
+
+def _reopened(path: Readable, choice: TransformChoice, window: TimeWindow) -> Recording:
+    """Open the recording of another process."""
+    return open_chosen(path, choice, window=window)
 
 
 class Recording:
     """An open recording, as returned by :func:`open_bag`; a context manager. Reading is thread-safe.
 
+    It can be pickled: another process opens the file again, by its absolute path or its URL.
+
     Attributes:
-        path: The path passed to :func:`open_bag`.
-        buffer: All transforms, with unlimited history. If several namespaces contain the same frame names, only the
-            transforms of the first one; see ``buffers``.
-        buffers: The transforms by namespace: ``""`` for ``/tf``, ``/robot1`` for ``/robot1/tf``.
+        path: The path passed to :func:`open_bag`; for a URL, bytes or a file object, something whose text names it.
         topics: The topics by name, including those without messages.
         files: The path and the size in bytes of each file.
         formats: The file formats, usually one.
         compression: The compression of chunks or messages: ``zstd``, ``lz4``, ``bz2`` or ``none``.
         choice: The selected transforms, to open the recording again.
+        window: The selected messages, to open the recording again.
         types: The types of its messages.
     """
 
-    def __init__(self, contents: Contents, choice: TransformChoice) -> None:
+    def __init__(self, contents: Contents, choice: TransformChoice, window: TimeWindow = ALL_TIME) -> None:
         self.path = contents.path
-        self.buffer = contents.buffer
-        self.buffers = contents.buffers
+        self._read_buffers = contents.read_buffers
         self.topics = contents.topics
         self.files = contents.files
         self.formats = contents.formats
         self.compression = contents.compression
         self.choice = choice
+        self.window = window
         self.types = contents.types
         self._index = contents.index
         self._problems = contents.problems
@@ -132,6 +160,24 @@ class Recording:
         self._decoders: dict[int, Callable[[bytes], Any]] = {}
         self._closing = contents.closing
         weakref.finalize(self, self._closing.close)  # closes the files if the user does not
+
+    @cached_property
+    def _buffers(self) -> Buffers:
+        return self._index.while_open(self._read_buffers)
+
+    @property
+    def buffer(self) -> Buffer:
+        """All transforms, with unlimited history.
+
+        If several namespaces contain the same frame names, only the transforms of the first one; see :attr:`buffers`.
+        Those of a recording on a server are read when they are first needed.
+        """
+        return self._buffers.common
+
+    @property
+    def buffers(self) -> dict[str, Buffer]:
+        """The transforms by namespace: ``""`` for ``/tf``, ``/robot1`` for ``/robot1/tf``."""
+        return self._buffers.by_namespace
 
     @property
     def format(self) -> str:
@@ -524,6 +570,10 @@ class Recording:
         """Close the files; the transforms remain available."""
         self._index.close()
         self._closing.close()
+
+    def __reduce__(self) -> tuple[object, ...]:
+        path = self.path
+        return _reopened, (path.absolute() if isinstance(path, Path) else path, self.choice, self.window)
 
     def __enter__(self) -> Self:
         return self

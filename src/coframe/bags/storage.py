@@ -4,27 +4,41 @@
 from __future__ import annotations
 
 import bisect
+import os
 import threading
 from abc import ABC, abstractmethod
 from collections import OrderedDict
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, BinaryIO, NamedTuple
 
-from coframe._files.regular_files import open_regular
+from coframe._sources.remote_error import RemoteFileError
+from coframe._sources.sources import Source, file_size, open_file
 from coframe.bags._compression import MAX_UNPACKED_BYTES, DamagedError
+from coframe.errors import RecordingError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
-    from pathlib import Path
 
     import numpy as np
     from numpy.typing import NDArray
 
+    from coframe._sources.sources import Readable
     from coframe.bags._problems import Problems
     from coframe.bags._recording_format import RecordingFormat
     from coframe.messages.slices import Slices
 
-__all__ = ["MAX_DAMAGED_PLACES", "Batch", "Channel", "ChunkedStorage", "Storage", "next_chunk"]
+__all__ = [
+    "MAX_DAMAGED_PLACES",
+    "Batch",
+    "Channel",
+    "ChunkedStorage",
+    "ListedChunk",
+    "Listing",
+    "Storage",
+    "are_consistent",
+    "next_chunk",
+    "read_at",
+]
 
 # A chunk whose size is plausible for its packed bytes is read in full. The total of all chunks is limited as well,
 # because a small file could otherwise take hours.
@@ -79,15 +93,47 @@ class Batch(NamedTuple):
     is_intact: bool = True
 
 
+class ListedChunk(NamedTuple):
+    """A chunk as the index of its file describes it.
+
+    Attributes:
+        offset: Where it begins in the file.
+        end: Where it ends.
+        first: Receive time of its first message, in nanoseconds.
+        last: Receive time of its last message, in nanoseconds.
+        channels: The channels of its messages; None if the index does not list them.
+        unpacked: Its size after unpacking, in bytes.
+    """
+
+    offset: int
+    end: int
+    first: int
+    last: int
+    channels: frozenset[Channel] | None
+    unpacked: int
+
+
+class Listing(NamedTuple):
+    """The index of a file, from which its chunks can be read without those between them.
+
+    Attributes:
+        chunks: All chunks that contain messages, in file order.
+        counts: The number of messages of each channel.
+    """
+
+    chunks: list[ListedChunk]
+    counts: dict[Channel, int]
+
+
 class Storage(ABC):
     """A file of a recording. Reading is thread-safe."""
 
     format: RecordingFormat
 
-    def __init__(self, path: Path, problems: Problems) -> None:
+    def __init__(self, path: Readable, problems: Problems) -> None:
         self.path = path
         self.problems = problems
-        self.size = path.stat().st_size  # bytes
+        self.size = file_size(path)  # bytes
         self.compressions: set[str] = set()  # the methods found so far
 
     @abstractmethod
@@ -102,6 +148,14 @@ class Storage(ABC):
             wanted: Returns whether the bytes of a channel's messages are needed.
             progress: Called regularly with the number of bytes of the file that have been read.
         """
+
+    def listing(self) -> Listing | None:
+        """Return the index of the file; None if it has none, so that `batches` has to read everything."""
+        return None
+
+    def read_chunk(self, chunk: ListedChunk) -> Iterator[Batch]:
+        """Yield the messages of a chunk of the index, including the bytes; damage is added to the problems."""
+        raise NotImplementedError
 
     @abstractmethod
     def read(self, position: int) -> bytes:
@@ -128,6 +182,23 @@ class Storage(ABC):
         self.problems.add(f"{self.path.name}: {sentence}", times)
 
 
+def are_consistent(chunks: list[ListedChunk], begin: int, size: int) -> bool:
+    """Return whether chunks that an index lists can be those of a file: inside of it, one after the other.
+
+    Args:
+        chunks: In file order.
+        begin: Where the first one may begin.
+        size: The size of the file in bytes.
+    """
+    budget = unpacked_budget(size)
+    for chunk in chunks:
+        budget -= chunk.unpacked
+        if not begin <= chunk.offset < chunk.end <= size or budget < 0:
+            return False
+        begin = chunk.end
+    return True
+
+
 def next_chunk(chunks: list[int], offset: int) -> int | None:
     """Return the first chunk after an offset; None if there is none.
 
@@ -137,6 +208,21 @@ def next_chunk(chunks: list[int], offset: int) -> int | None:
     """
     place = bisect.bisect_right(chunks, offset)
     return chunks[place] if place < len(chunks) else None
+
+
+def read_at(file: BinaryIO, offset: int, size: int) -> bytes:
+    """Return bytes of a file; fewer at its end.
+
+    Where possible, the position of the file is not used: processes that are forked from this one share it.
+    """
+    if not hasattr(os, "pread"):
+        file.seek(offset)
+        return file.read(size)
+    parts = []
+    while size > 0 and (part := os.pread(file.fileno(), size, offset)):
+        parts.append(part)
+        offset, size = offset + len(part), size - len(part)
+    return parts[0] if len(parts) == 1 else b"".join(parts)
 
 
 _OFFSET_BITS = 40
@@ -149,12 +235,13 @@ class ChunkedStorage(Storage):
     A position is an offset in the file, or the number of a chunk (from 1) and the offset inside it.
     """
 
-    def __init__(self, path: Path, problems: Problems) -> None:
+    def __init__(self, path: Readable, problems: Problems) -> None:
         super().__init__(path, problems)
-        self._file: BinaryIO = open_regular(path)
+        self._file: BinaryIO = open_file(path)
         self._lock = threading.Lock()
-        self._chunks: list[int] = []  # offsets in the file
-        self._unpacked_end = 0  # offset of the last chunk that was counted
+        self._chunks: dict[int, int] = {}  # their numbers from 1, by their offsets in the file
+        self._offsets: list[int] = []
+        self._counted: set[int] = set()  # offsets of chunks
         self._unpacked_bytes = 0
         self._unpacked: OrderedDict[int, bytes] = OrderedDict()
 
@@ -180,35 +267,41 @@ class ChunkedStorage(Storage):
             return b""
         if size > MAX_UNPACKED_BYTES:
             raise DamagedError(f"a record claims to have {size} bytes, more than the limit of {MAX_UNPACKED_BYTES}")
+        if isinstance(self.path, Source):
+            try:
+                return self.path.read(offset, size)
+            except RemoteFileError as error:  # Messages that are only missing now must not look like damage.
+                raise RecordingError(str(error), hint=error.hint) from None
         with self._lock:
-            self._file.seek(offset)
-            return self._file.read(size)
+            return read_at(self._file, offset, size)
 
     def check_budget(self, offset: int, packed: int, size: int) -> None:
         """Count the unpacked size of a chunk when it is read for the first time.
 
         Args:
-            offset: The offset of the chunk; chunks are first read in order.
+            offset: The offset of the chunk.
             packed: The size of the packed bytes.
             size: The unpacked size.
 
         Raises:
             DamagedError: The chunks up to this one are larger than a plausible recording of this size.
         """
-        if offset <= self._unpacked_end or size <= packed or size > MAX_UNPACKED_BYTES:
+        if offset in self._counted or size <= packed or size > MAX_UNPACKED_BYTES:
             return  # `unpack` rejects a chunk that is too large.
         budget = unpacked_budget(self.size)
         if self._unpacked_bytes + size > budget:
             raise DamagedError(
                 f"the chunks before it have {self._unpacked_bytes} unpacked bytes; the limit is {budget}"
             )
-        self._unpacked_end = offset
+        self._counted.add(offset)
         self._unpacked_bytes += size
 
     def add_chunk(self, offset: int) -> int:
         """Register a chunk; return the number to add to an offset inside it to get a position."""
-        self._chunks.append(offset)
-        return len(self._chunks) << _OFFSET_BITS
+        if offset not in self._chunks:
+            self._offsets.append(offset)
+            self._chunks[offset] = len(self._offsets)
+        return self._chunks[offset] << _OFFSET_BITS
 
     def read(self, position: int) -> bytes:
         """Return the bytes of one message, from a cached chunk if possible."""
@@ -227,7 +320,7 @@ class ChunkedStorage(Storage):
             if number in self._unpacked:
                 self._unpacked.move_to_end(number)
                 return self._unpacked[number]
-        data = self.unpack_chunk(self._chunks[number - 1])
+        data = self.unpack_chunk(self._offsets[number - 1])
         with self._lock:
             self._unpacked[number] = data
             while len(self._unpacked) > 1 and sum(map(len, self._unpacked.values())) > _CACHE_SIZE:

@@ -7,6 +7,7 @@ import copy
 import json
 import re
 from datetime import datetime, timezone
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -20,7 +21,7 @@ from coframe.bags.copying import copy_recordings
 from coframe.bags.formats import METADATA, storage_formats
 from coframe.bags.namespaces import TransformChoice
 from coframe.cli.bag_edit import edit
-from coframe.cli.declaration import PATH, CommandGroup, argument
+from coframe.cli.declaration import PATH, RECORDING, CommandGroup, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     TIMES,
@@ -43,10 +44,10 @@ from coframe.time import MILLISECOND, SECOND
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-    from pathlib import Path
 
     from rich.console import Console
 
+    from coframe._sources.sources import Readable
     from coframe.bags import Recording, Summary
     from coframe.bags.summary import SensorSummary
     from coframe.doctor import Finding
@@ -107,7 +108,7 @@ class ConvertCommand(BagCommand):
 @click.option("--topic-name", "-t", "only_names", is_flag=True, help="Print only the names of the topics.")
 @click.option("--verbose", "-v", is_flag=True, help="Also show the numbers of requests and responses of services.")
 def info(
-    bag: Path,
+    bag: Readable,
     namespace: str | None,
     tf_topic: str | None,
     tf_static_topic: str | None,
@@ -141,15 +142,15 @@ def info(
 @click.option(
     "--statics",
     metavar="OTHER",
-    type=PATH,
+    type=RECORDING,
     help="Recording from which to take missing static transforms.",
 )
 @listener_options
 @compression_option
 def fix(
-    bag: Path,
+    bag: Readable,
     output: Path,
-    statics: Path | None,
+    statics: Readable | None,
     tf_topic: str,
     tf_static_topic: str,
     prefix: str,
@@ -205,9 +206,11 @@ def _findings(path: Path) -> list[Finding]:
 
 
 @bag.command(cls=ConvertCommand, short_help="Convert a recording to rosbag2's MCAP, or change its compression.")
-@argument("bag", metavar="[BAG]", type=PATH, required=False, help="Recording to convert.")
+@argument("bag", metavar="[BAG]", type=RECORDING, required=False, help="Recording to convert.")
 @argument("output", metavar="[OUT]", type=PATH, required=False, help="Folder to create for the copy.")
-@click.option("--input", "-i", "inputs", metavar="BAG", type=PATH, multiple=True, help="Recording to read; repeatable.")
+@click.option(
+    "--input", "-i", "inputs", metavar="BAG", type=RECORDING, multiple=True, help="Recording to read; repeatable."
+)
 @click.option(
     "--output-options",
     "-o",
@@ -217,9 +220,9 @@ def _findings(path: Path) -> list[Finding]:
 )
 @compression_option
 def convert(
-    bag: Path | None,
+    bag: Readable | None,
     output: Path | None,
-    inputs: tuple[Path, ...],
+    inputs: tuple[Readable, ...],
     output_options: Path | None,
     compression: str,
 ) -> None:
@@ -246,13 +249,13 @@ def convert(
 @bag.command(cls=BagCommand, short_help="Write the metadata.yaml of a recording again.")
 @bag_argument
 @argument("storage", metavar="[FORMAT]", required=False, help="Has no effect: the format is detected.")
-def reindex(bag: Path, storage: str | None) -> None:
+def reindex(bag: Readable, storage: str | None) -> None:
     """Write the metadata.yaml of the recording BAG, a folder of rosbag2, from its files.
 
     Example: coframe bag reindex run
     """
     del storage
-    if not bag.is_dir():
+    if not isinstance(bag, Path) or not bag.is_dir():
         fail(f"{printable(str(bag))} is not a folder", "Only folders of rosbag2 have a metadata.yaml.")
     with run_to_completion():
         import rosbag2_py  # noqa: PLC0415 - only for this command
@@ -289,7 +292,7 @@ def list_formats(kind: str | None, verbose: bool) -> None:
 
 
 @bag.command(short_help="Merge several recordings into one.")
-@argument("bags", metavar="BAG...", type=PATH, nargs=-1, required=True, help="Recordings to merge.")
+@argument("bags", metavar="BAG...", type=RECORDING, nargs=-1, required=True, help="Recordings to merge.")
 @click.option(
     "--output", "-o", metavar="FOLDER", type=PATH, required=True, help="Folder to create for the new recording."
 )
@@ -332,7 +335,7 @@ def merge(
 @click.option("--topics", metavar="TOPIC", multiple=True, help="Copy only this topic; repeatable.")
 @compression_option
 def slice_(
-    bag: Path,
+    bag: Readable,
     output: Path,
     start: str | None,
     end: str | None,
@@ -362,7 +365,7 @@ def _receipt_time(option: str, text: str | None, recording: Recording) -> int | 
         fail(f"{option}: {error}", code=2)
 
 
-def _copy(sources: Sequence[Path], output: Path, compression: str, **selection: Any) -> None:
+def _copy(sources: Sequence[Readable], output: Path, compression: str, **selection: Any) -> None:
     _check_compression(compression)
     with run_to_completion():
         with task_progress() as progress:

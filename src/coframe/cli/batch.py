@@ -13,7 +13,7 @@ from coframe.bags import TrajectoryQuery, query_recordings
 from coframe.bags.batch import ENGINES
 from coframe.bags.formats import file_kinds
 from coframe.bags.namespaces import TransformChoice
-from coframe.cli.declaration import PATH, Command, argument
+from coframe.cli.declaration import PATH, RECORDING, Command, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     PositiveDuration,
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
+    from coframe._sources.sources import Readable
     from coframe.bags import QueryResult
     from coframe.buffer.gaps import OnGap
 
@@ -42,7 +43,7 @@ __all__ = ["batch"]
 @argument(
     "bags",
     metavar="BAG...",
-    type=PATH,
+    type=RECORDING,
     nargs=-1,
     required=True,
     help=lambda: f"Recordings: {file_kinds()}s, or rosbag2 folders.",
@@ -70,7 +71,7 @@ __all__ = ["batch"]
 def batch(
     target: str,
     source: str,
-    bags: tuple[Path, ...],
+    bags: tuple[Readable, ...],
     output: Path,
     rate: float | None,
     stamps_of: str | None,
@@ -125,7 +126,9 @@ def batch(
             fail(f"{len(bad)} of {count(len(answers), 'recording')} failed; see the reasons above")
 
 
-def _run(bags: Sequence[Path], query: TrajectoryQuery, output: Path, on: str, workers: int | None) -> list[QueryResult]:
+def _run(
+    bags: Sequence[Readable], query: TrajectoryQuery, output: Path, on: str, workers: int | None
+) -> list[QueryResult]:
     done = itertools.count(1)
     with item_progress("recordings", len(bags)) as show:
         return query_recordings(bags, query, output, on=on, workers=workers, progress=lambda _: show(next(done)))

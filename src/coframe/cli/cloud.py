@@ -29,6 +29,7 @@ from coframe.cli.recordings import open_recording, parse_time
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from coframe._sources.sources import Readable
     from coframe.bags import Recording
     from coframe.buffer.gaps import OnGap
 
@@ -82,7 +83,7 @@ __all__ = ["cloud"]
 @namespace_option
 @recorded_listener_options
 def cloud(
-    bag: Path,
+    bag: Readable,
     topic: str,
     frame: str,
     output: Path,

@@ -7,14 +7,17 @@ import csv
 import io
 import json
 import math
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Literal
+from urllib.parse import urlsplit
 
 import click
 import numpy as np
 
 from coframe._files.complete_files import write_complete
 from coframe._output.formatting import count
+from coframe._sources.sources import as_source
+from coframe._sources.urls import is_url
 from coframe.bags.formats import has_known_suffix
 from coframe.bags.namespaces import TransformChoice
 from coframe.cli.declaration import PATH, Command, argument
@@ -117,10 +120,10 @@ def compare(
 
 def _read(text: str, choice: TransformChoice) -> Transform:
     """Return the trajectory given by an argument."""
-    path, _, frames = text.partition(":") if Path(text).exists() else _split(text)
+    path, _, frames = text.partition(":") if not is_url(text) and Path(text).exists() else _split(text)
     if not frames:
-        file = Path(path)
-        if file.is_dir() or has_known_suffix(file):
+        file = as_source(path)
+        if has_known_suffix(PurePath(file.name)) or (isinstance(file, Path) and file.is_dir()):
             fail(
                 f"{path} is a recording: give two of its frames",
                 f"Write BAG:TARGET:SOURCE, for example {path}:map:base_link.",
@@ -128,16 +131,17 @@ def _read(text: str, choice: TransformChoice) -> Transform:
             )
         return read_trajectory(file, report=lambda sentence: click.echo(f"coframe: {sentence}", err=True))
     target, _, source = frames.partition(":")
-    with open_recording(Path(path), choice) as recording:
+    with open_recording(path, choice) as recording:
         return recording.buffer.trajectory(target, source)
 
 
 def _split(text: str) -> tuple[str, str, str]:
     """Split BAG:TARGET:SOURCE at the last two colons, because a path may contain colons."""
     bag, *frames = text.rsplit(":", 2)
-    if len(frames) == 2 and all((bag, *frames)):
+    is_part_of_url = is_url(text) and not (is_url(bag) and urlsplit(bag).path)  # http://host:8000/run.tum
+    if len(frames) == 2 and all((bag, *frames)) and not is_part_of_url:
         return bag, ":", ":".join(frames)
-    if frames and Path(bag).exists():
+    if frames and not is_url(text) and Path(bag).exists():
         fail(f"{text!r} has one frame; a trajectory needs two", "Write BAG:TARGET:SOURCE.", code=2)
     return text, "", ""
 

@@ -13,17 +13,37 @@ from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 import click
 
+from coframe._base_error import CoframeError
+from coframe._sources.urls import is_url
 from coframe.cli import help_format
 from coframe.cli.commands import joins_graph
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["PASS_ARGUMENTS_ON", "PATH", "Argument", "Command", "CommandGroup", "Declared", "argument"]
+__all__ = ["PASS_ARGUMENTS_ON", "PATH", "RECORDING", "Argument", "Command", "CommandGroup", "Declared", "argument"]
 
 Declared = TypeVar("Declared", bound="Callable[..., Any] | click.Command")
 
 PATH: Final = click.Path(path_type=Path)
+
+
+class _RecordingType(click.Path):
+    """The type of arguments that are paths, or URLs of files."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return a path, or the file that a URL names."""
+        if not is_url(value):
+            return super().convert(value, param, ctx)
+        from coframe._sources.sources import as_source  # noqa: PLC0415 - paths do not need it
+
+        try:
+            return as_source(value)
+        except CoframeError as error:
+            return self.fail(f"{error}. {error.hint}", param, ctx)
+
+
+RECORDING: Final = _RecordingType(path_type=Path)
 # For commands that pass on unknown arguments: --ros-args to a node, NAME:=VALUE to a xacro file.
 PASS_ARGUMENTS_ON: Final = {"ignore_unknown_options": True, "allow_extra_args": True}
 

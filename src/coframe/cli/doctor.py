@@ -37,8 +37,8 @@ from coframe.doctor.rendering.text import lines
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
-    from pathlib import Path
 
+    from coframe._sources.sources import Readable
     from coframe.doctor import Report
     from coframe.doctor.live import LiveObserver
 
@@ -98,7 +98,7 @@ _CPU_SHARE = 0.006
 @domain_option
 @recorded_listener_options
 def doctor(
-    bag: Path | None,
+    bag: Readable | None,
     watch: bool,
     as_json: bool,
     sarif: bool,
@@ -178,7 +178,7 @@ def doctor(
 
 
 def _check_system(
-    bag: Path | None, domain: int | None, duration: PositiveDuration, *, as_json: bool, watch: bool, sarif: bool
+    bag: Readable | None, domain: int | None, duration: PositiveDuration, *, as_json: bool, watch: bool, sarif: bool
 ) -> None:
     for given, name in ((bag is not None, "a recording"), (watch, "--watch"), (sarif, "--sarif")):
         if given:
@@ -233,7 +233,7 @@ def _similar_codes(code: str) -> str:
     return f"Did you mean {' or '.join(f'{known} ({page(known).title})' for known in near)}?"
 
 
-def _print_and_exit(reports: dict[str, Report], as_json: bool, sarif: bool, bag: Path | None, fail_on: str) -> None:
+def _print_and_exit(reports: dict[str, Report], as_json: bool, sarif: bool, bag: Readable | None, fail_on: str) -> None:
     """Print the reports, and end the command with exit code 1 for findings of a severity, otherwise 0."""
     if sarif:
         print(json.dumps(as_sarif(reports, bag), indent=2))

@@ -29,6 +29,7 @@ from coframe.cli.options import (
 )
 from coframe.cli.output import fail, fail_to_write, printable, report_console, warn
 from coframe.cli.progress import reading_progress
+from coframe.cli.recordings import title_of
 from coframe.cli.ros_arguments import NodeCommand, node_identity
 from coframe.connection.listener_config import ListenerConfig
 from coframe.doctor.recorded import observe_chosen
@@ -43,6 +44,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
+    from coframe._sources.sources import Readable
     from coframe.tree_drawing import Forest
 
 __all__ = ["frames"]
@@ -101,7 +103,7 @@ _PACKAGES = {".pdf": ("pydyf", "pdf"), ".png": ("matplotlib", "plot")}
 @recorded_tf_topic_option
 @recorded_tf_static_topic_option
 def frames(
-    bag: Path | None,
+    bag: Readable | None,
     output: tuple[Path, ...],
     watching: bool,
     as_json: bool,
@@ -132,7 +134,7 @@ def frames(
                 warn(problem)
             if not any(forest.frames for forest in forests.values()):
                 fail(f"{bag} contains no transforms", "Use --tf-topic and --tf-static-topic to select other topics.")
-            _write_or_print(forests, files, as_json, bag.resolve().name)
+            _write_or_print(forests, files, as_json, title_of(bag))
             return
         from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no middleware
 

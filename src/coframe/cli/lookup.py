@@ -127,7 +127,7 @@ def lookup(
     with run_to_completion():
         if bags:
             choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
-            with open_recording(Path(bags[0]), choice) as recording:
+            with open_recording(bags[0], choice) as recording:
                 check_has_transforms(recording)
                 try:
                     found = transform(recording.buffer, lambda option, text: parse_lookup_time(option, text, recording))

@@ -14,7 +14,7 @@ import click
 from coframe import frame_names
 from coframe.bags.formats import file_kinds
 from coframe.cli.completion import complete_recordings, complete_tf_topics
-from coframe.cli.declaration import PATH, Declared, argument
+from coframe.cli.declaration import RECORDING, Declared, argument
 from coframe.cli.output import fail, warn
 from coframe.frame_names import TF_STATIC_TOPIC, TF_TOPIC
 from coframe.time import SECOND, duration_ns
@@ -155,14 +155,14 @@ def checked_prefix(prefix: str) -> str:
 bag_argument = argument(
     "bag",
     metavar="BAG",
-    type=PATH,
+    type=RECORDING,
     shell_complete=complete_recordings,
-    help=lambda: f"Recording: a {file_kinds()}, or a rosbag2 folder.",
+    help=lambda: f"Recording: a {file_kinds()}, a rosbag2 folder, or its URL (https://, s3://, gs://, az://).",
 )
 optional_bag_argument = argument(
     "bag",
     metavar="[BAG]",
-    type=PATH,
+    type=RECORDING,
     required=False,
     shell_complete=complete_recordings,
     help="Recording to read; omit it for the live ROS graph.",

@@ -16,7 +16,7 @@ from coframe._output.formatting import count
 from coframe._process.keys import keys
 from coframe.bags.formats import file_kinds
 from coframe.cli.completion import complete_recordings
-from coframe.cli.declaration import PATH, argument
+from coframe.cli.declaration import RECORDING, argument
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import (
     TF_STATIC_TOPIC,
@@ -34,8 +34,7 @@ from coframe.recorder import play as start_playing
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
+    from coframe._sources.sources import Readable
     from coframe.recorder import Player
 
 __all__ = ["burst", "play"]
@@ -71,7 +70,7 @@ def _is_number(following: list[str]) -> bool:
 @argument(
     "bag",
     metavar="[BAG]",
-    type=PATH,
+    type=RECORDING,
     required=False,
     shell_complete=complete_recordings,
     help=lambda: f"Recording: a {file_kinds()}, or a rosbag2 folder.",
@@ -81,7 +80,7 @@ def _is_number(following: list[str]) -> bool:
     "-i",
     "inputs",
     metavar="BAG",
-    type=PATH,
+    type=RECORDING,
     multiple=True,
     help="Recording to replay together with others; repeatable.",
 )
@@ -133,8 +132,8 @@ def _is_number(following: list[str]) -> bool:
 @domain_option
 @listener_options
 def play(
-    bag: Path | None,
-    inputs: tuple[Path, ...],
+    bag: Readable | None,
+    inputs: tuple[Readable, ...],
     topics: tuple[str, ...],
     regex: str | None,
     exclude: str | None,
@@ -229,7 +228,7 @@ def play(
 )
 @domain_option
 def burst(
-    bag: Path,
+    bag: Readable,
     num_messages: int,
     topics: tuple[str, ...],
     remap: tuple[str, ...],

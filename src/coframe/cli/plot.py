@@ -18,13 +18,14 @@ from coframe.cli.options import (
 )
 from coframe.cli.output import fail, fail_to_write, printable, warn
 from coframe.cli.progress import task_progress
-from coframe.cli.recordings import open_recording, parse_time
+from coframe.cli.recordings import open_recording, parse_time, title_of
 from coframe.errors import PlotError
 from coframe.plotting import FIGURE_FORMATS, Figure, evaluate, figure_format, parse_expression
 
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from coframe._sources.sources import Readable
     from coframe.plotting import Series
 
 __all__ = ["check_figure_package", "plot", "save_figure"]
@@ -58,7 +59,7 @@ _SUFFIXES = ", ".join(f".{kind}" for kind in FIGURE_FORMATS)
 @namespace_option
 @recorded_listener_options
 def plot(
-    bag: Path,
+    bag: Readable,
     expressions: tuple[str, ...],
     output: tuple[Path, ...],
     start: str | None,
@@ -91,7 +92,7 @@ def plot(
         for curve in curves:
             if curve.skipped:
                 warn(f"{curve.label}: {count(curve.skipped, 'message')} without a value")
-        figure = Figure(printable(title or bag.resolve().name), curves)
+        figure = Figure(printable(title or title_of(bag)), curves)
         for path in output:
             save_figure(figure, path)
             print(f"{path}: {_summary(curves)}")

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from coframe._output.formatting import join_names, seconds
@@ -15,12 +16,12 @@ from coframe.time import DAY
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
-    from pathlib import Path
 
+    from coframe._sources.sources import Readable
     from coframe.bags.namespaces import TransformChoice
     from coframe.bags.recording import Recording
 
-__all__ = ["EARLIEST_WALL_TIME", "check_has_transforms", "grouped_by_topic", "open_recording", "parse_time"]
+__all__ = ["EARLIEST_WALL_TIME", "check_has_transforms", "grouped_by_topic", "open_recording", "parse_time", "title_of"]
 
 # Stamps before 1980 are assumed to be simulation time, which begins near 0.
 EARLIEST_WALL_TIME = 10 * 365 * DAY
@@ -28,12 +29,13 @@ EARLIEST_WALL_TIME = 10 * 365 * DAY
 
 @contextmanager
 def open_recording(
-    path: Path, choice: TransformChoice, on_transforms: Callable[..., object] | None = None
+    path: str | Readable, choice: TransformChoice, on_transforms: Callable[..., object] | None = None
 ) -> Iterator[Recording]:
     """Open a recording with a progress bar; print on stderr what could not be read."""
-    with reading_progress() as progress:
-        recording = open_chosen(path, choice, progress=progress, on_transforms=on_transforms)
-    with recording:
+    with ExitStack() as closing:
+        with reading_progress() as progress:
+            recording = closing.enter_context(open_chosen(path, choice, progress=progress, on_transforms=on_transforms))
+            recording.buffers  # noqa: B018 - reads the transforms of a recording on a server
         printed = recording.problems
         for problem in grouped_by_topic(printed):
             warn(problem)
@@ -42,6 +44,11 @@ def open_recording(
         finally:
             for problem in grouped_by_topic([problem for problem in recording.problems if problem not in printed]):
                 warn(problem)
+
+
+def title_of(bag: Readable) -> str:
+    """Return the name of a recording, also of one in the current folder."""
+    return bag.resolve().name if isinstance(bag, Path) else bag.name
 
 
 def check_has_transforms(recording: Recording) -> None:

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
+    from coframe._sources.sources import Readable
     from coframe.bags import Recording
     from coframe.buffer.gaps import OnGap
     from coframe.transform.transform import Transform
@@ -62,7 +63,7 @@ __all__ = ["trajectory"]
 @namespace_option
 @recorded_listener_options
 def trajectory(
-    bag: Path,
+    bag: Readable,
     target: str,
     source: str,
     output: Path | None,

@@ -8,12 +8,12 @@ import sys
 import threading
 import time
 import webbrowser
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from coframe._process.freed_memory import return_freed_arrays
+from coframe._sources.sources import as_source
 from coframe.bags.namespaces import TransformChoice
 from coframe.bags.recording import open_chosen
 from coframe.cli.completion import complete_recordings
@@ -35,7 +35,9 @@ from coframe.wire import selection
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from pathlib import Path
 
+    from coframe._sources.sources import Readable
     from coframe.robots import Robot
     from coframe.viewer import Viewer
     from coframe.viewer.sources.recorded import RecordedSource
@@ -142,7 +144,7 @@ def view(
             fail(f"--output {output}: unknown suffix {output.suffix!r}. Suffix: .html", code=2)
         choice = TransformChoice(None, tf_topic, tf_static_topic, prefix, keep)
         look: dict[str, Any] = {"rviz": rviz, "fixed": fixed, "robot": robot, "mesh_roots": mesh_root}
-        write_replay(Path(bag), output, choice, **look, start=start, stop=stop, rate=rate)
+        write_replay(as_source(bag), output, choice, **look, start=start, stop=stop, rate=rate)
         return
     if unused := [f"--{name}" for name, value in replay.items() if value is not None]:
         fail(f"{unused[0]} can only be used with --output", code=2)
@@ -151,7 +153,7 @@ def view(
         if live:
             selection.check()
         viewer = start_viewer(
-            "coframe: joining the ROS graph" if live else Path(bag).name,
+            "coframe: joining the ROS graph" if live else as_source(bag).name,
             "live" if live else "buffer",
             fixed=fixed,
             host=host,
@@ -174,7 +176,7 @@ def view(
             else:
                 progress = _ReadingProgress(viewer, browser=not no_browser)
                 choice = TransformChoice(None, tf_topic, tf_static_topic, prefix, keep)
-                viewer.set_source(_read(Path(bag), choice, progress))
+                viewer.set_source(_read(as_source(bag), choice, progress))
             while True:  # On some platforms Ctrl-C does not interrupt an endless wait.
                 time.sleep(60.0)
 
@@ -203,7 +205,7 @@ class _ReadingProgress:
             self._viewer.set_title(f"{name}: {100 * done // max(total, 1)} % read")
 
 
-def _read(bag: Path, choice: TransformChoice, progress: _ReadingProgress) -> RecordedSource:
+def _read(bag: Readable, choice: TransformChoice, progress: _ReadingProgress) -> RecordedSource:
     from coframe.viewer.sources.recorded import RecordedSource  # noqa: PLC0415 - not needed for the live graph
 
     recording = open_chosen(bag, choice, progress=lambda done, total: progress.update(done, total, bag.name))

@@ -23,13 +23,14 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
+    from coframe._sources.sources import Readable
     from coframe.bags.namespaces import TransformChoice
 
 __all__ = ["write_replay"]
 
 
 def write_replay(
-    bag: Path,
+    bag: Readable,
     output: Path,
     choice: TransformChoice,
     *,

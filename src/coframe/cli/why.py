@@ -125,7 +125,7 @@ def why(
     with run_until_interrupted() if watch else run_to_completion():
         if bags:
             choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
-            answer = _answer_recorded(Path(bags[0]), choice, target, source, at)
+            answer = _answer_recorded(bags[0], choice, target, source, at)
         else:
             config = ListenerConfig.of(
                 domain=domain,
@@ -142,7 +142,7 @@ def why(
         raise Exit(0 if answer.found.possible else 1)
 
 
-def _answer_recorded(bag: Path, choice: TransformChoice, target: str, source: str, at: str | None) -> _Answer:
+def _answer_recorded(bag: str, choice: TransformChoice, target: str, source: str, at: str | None) -> _Answer:
     collectors: dict[str, Collector] = {}
     with open_recording(bag, choice, collecting(collectors, choice)) as recording:
         check_has_transforms(recording)

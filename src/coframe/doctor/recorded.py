@@ -35,11 +35,11 @@ from coframe.frame_names import absolute
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
-    import os
     from collections.abc import Callable, Iterable, Iterator
 
     from numpy.typing import NDArray
 
+    from coframe._sources.sources import Location
     from coframe.bags import Recording
     from coframe.bags.storage import Channel
     from coframe.messages.slices import Slices
@@ -61,7 +61,7 @@ _LOGS = {"rcl_interfaces/msg/Log", "rosgraph_msgs/msg/Log"}
 
 
 def observe_recording(
-    path: str | os.PathLike[str],
+    path: Location,
     *,
     namespace: str | None = None,
     tf_topic: str | None = None,
@@ -74,7 +74,7 @@ def observe_recording(
     """Return the observations of a recording by namespace: ``""`` for ``/tf``, ``/robot1`` for ``/robot1/tf``.
 
     Args:
-        path: A file, or the folder of a rosbag2 recording.
+        path: A file, the folder of a rosbag2 recording, or its URL.
         namespace: Only the transforms of this namespace; None for all.
         tf_topic: Only the transforms of this topic and of ``tf_static_topic``, as those of one robot in the namespace
             of this topic. None means all topics, or ``/tf`` if only the other topic is given.
@@ -93,7 +93,7 @@ def observe_recording(
 
 
 def observe_chosen(
-    path: str | os.PathLike[str],
+    path: Location,
     choice: TransformChoice,
     *,
     cache: int = DEFAULT_CACHE,

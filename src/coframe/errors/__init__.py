@@ -24,7 +24,8 @@
         ├── ContractError(ValueError)           a contract for recordings that is invalid
         ├── CourseError(ValueError)             a folder of the lab that cannot be created or graded
         ├── PluginError(RuntimeError)           a plug-in of another package that cannot be loaded
-        └── UnsuitableFileError(OSError)        a pipe, a device, or a file that is too large (regular_files)
+        ├── UnsuitableFileError(OSError)        a pipe, a device, or a file that is too large (regular_files)
+        └── RemoteFileError(OSError)            a file on a server that cannot be read (remote_error)
 
 Wrong arguments of Python calls (a wrong type, shape or unit) raise TypeError and ValueError as usual.
 

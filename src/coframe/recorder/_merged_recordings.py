@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 from coframe.bags import RecordingError, open_bag
 
 if TYPE_CHECKING:
-    import os
     from collections.abc import Iterable, Iterator, Sequence
 
+    from coframe._sources.sources import Location
     from coframe.bags import Recording
     from coframe.bags.storage import Channel
 
@@ -73,7 +73,7 @@ class MergedRecordings:
             each.close()
 
 
-def open_merged(paths: Sequence[str | os.PathLike[str]]) -> Recording | MergedRecordings:
+def open_merged(paths: Sequence[Location]) -> Recording | MergedRecordings:
     """Open one or more recordings.
 
     Raises:

@@ -6,9 +6,9 @@ from __future__ import annotations
 import os
 import threading
 import time
-from pathlib import Path
 from typing import TYPE_CHECKING
 
+from coframe._sources.sources import Source
 from coframe.bags import RecordingError
 from coframe.frame_names import absolute, renaming
 from coframe.messages import find, serialize
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from coframe import _core
+    from coframe._sources.sources import Location
     from coframe.bags import Recording
     from coframe.time import DurationLike
     from coframe.wire.endpoints import Publisher
@@ -230,7 +231,7 @@ def _checked_rate(rate: float) -> float:
 
 
 def play(
-    path: str | os.PathLike[str] | Sequence[str | os.PathLike[str]],
+    path: Location | Sequence[Location],
     *,
     topics: Iterable[str] | None = None,
     regex: str | None = None,
@@ -294,7 +295,7 @@ def play(
     chooses = TopicFilter(
         topics if topics is None else list(topics), regex, exclude, hidden=True, exclude_topics=exclude_topics
     )
-    recording = open_merged([Path(each) for each in ([path] if isinstance(path, str | os.PathLike) else path)])
+    recording = open_merged([path] if isinstance(path, str | os.PathLike | Source) else path)
     try:
         chosen = _chosen_channels(recording, chooses)
         start = _start(recording, duration_ns(start_offset))

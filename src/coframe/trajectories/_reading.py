@@ -10,14 +10,13 @@ import warnings
 import zipfile
 from array import array
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 
 from coframe._files.other_files import BEGINNING, what_else
-from coframe._files.regular_files import open_regular
 from coframe._output.formatting import count
+from coframe._sources.sources import as_source, open_file
 from coframe.errors import InvalidArgumentException, TrajectoryError
 from coframe.time import SECOND
 from coframe.trajectories._checks import findings, likely_unit, looks_like_seconds
@@ -30,6 +29,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     from numpy.typing import NDArray
+
+    from coframe._sources.sources import Readable
 
 __all__ = ["READABLE_FORMATS", "read_trajectory"]
 
@@ -77,14 +78,17 @@ class _UnitError(ValueError):
 
 
 def read_trajectory(
-    path: str | os.PathLike[str], format_: str | None = None, *, report: Callable[[str], object] | None = None
+    path: str | os.PathLike[str] | Readable,
+    format_: str | None = None,
+    *,
+    report: Callable[[str], object] | None = None,
 ) -> Transform:
     """Read the poses in a trajectory file.
 
     The names in a header line, such as ``timestamp[ns],x,y,z,qw,qx,qy,qz``, determine the columns.
 
     Args:
-        path: The file.
+        path: The file, or its URL.
         format_: ``tum``, ``kitti``, ``euroc``, ``csv`` or ``npz``; None detects it from the contents, because EuRoC and
             CSV have the same suffix.
         report: Called with a sentence for each suspicious property: times that do not increase, quaternions whose norm
@@ -109,9 +113,9 @@ def read_trajectory(
     """
     if format_ is not None and format_ not in READABLE_FORMATS:
         raise ValueError(f"No format named {format_!r} that can be read. Formats: {', '.join(READABLE_FORMATS)}.")
-    file = Path(path)
     try:
-        with open_regular(file) as stream:
+        file = as_source(path)
+        with open_file(file) as stream:
             beginning = stream.read(BEGINNING)
             stream.seek(0)
             is_zip = beginning.startswith(_ZIP)
@@ -124,7 +128,10 @@ def read_trajectory(
                 text = io.TextIOWrapper(stream, encoding=encoding)
                 poses, sentences = _read_text(file, iter(partial(text.readline, MAX_LINE + 1), ""), format_)
     except OSError as error:
-        raise TrajectoryError(f"{file} cannot be read: {error.strerror or error}") from None
+        name = getattr(error, "filename", None) or path
+        raise TrajectoryError(
+            f"{name} cannot be read: {error.strerror or error}", hint=getattr(error, "hint", "")
+        ) from None
     except UnicodeError:
         raise TrajectoryError(f"{file} is not a trajectory: it is not a text file", hint=_LAYOUTS) from None
     except InvalidArgumentException as error:
@@ -134,7 +141,7 @@ def read_trajectory(
     return poses
 
 
-def _read_text(file: Path, lines: Iterable[str], kind: str | None) -> _Poses:
+def _read_text(file: Readable, lines: Iterable[str], kind: str | None) -> _Poses:
     rows = _Rows(file, kind)
     for number, line in enumerate(lines, start=1):
         if len(line) > MAX_LINE:
@@ -146,7 +153,7 @@ def _read_text(file: Path, lines: Iterable[str], kind: str | None) -> _Poses:
 class _Rows:
     """The rows of a text file; a header line or the first row determines the columns."""
 
-    def __init__(self, file: Path, kind: str | None) -> None:
+    def __init__(self, file: Readable, kind: str | None) -> None:
         self._file = file
         self._kind = kind
         self._named: Columns | None = None
@@ -243,7 +250,7 @@ class _Times:
             raise _UnitError(f"the time {text} looks like nanoseconds, but times in this format are seconds")
         self._values.append(_nanoseconds(text, self._unit) + (int(nanoseconds) if nanoseconds else 0))
 
-    def nanoseconds(self, file: Path) -> NDArray[np.int64]:
+    def nanoseconds(self, file: Readable) -> NDArray[np.int64]:
         """Return all times in nanoseconds."""
         times = np.array(self._values, dtype=np.int64)
         if self._is_open and (unit := likely_unit(times)) != 1:
@@ -256,7 +263,7 @@ class _Times:
         return times
 
 
-def _layout(file: Path, kind: str | None, cells: int, has_commas: bool) -> str:
+def _layout(file: Readable, kind: str | None, cells: int, has_commas: bool) -> str:
     """Return the format of a file without names of columns; "" if it is in none, or not in the requested one."""
     if has_commas and cells >= 8:
         is_tum = kind == "tum" or (kind is None and file.suffix.lower() == ".tum")
@@ -269,7 +276,7 @@ def _layout(file: Path, kind: str | None, cells: int, has_commas: bool) -> str:
 
 
 def _checked_poses(
-    file: Path,
+    file: Readable,
     rows: NDArray[np.float64],
     stamps: NDArray[np.int64],
     target: str | None = None,
@@ -285,7 +292,7 @@ def _checked_poses(
     return Transform(rows[:, :3], rows[:, 3:], target=target, source=source, stamp=stamps), sentences
 
 
-def _matrices(file: Path, numbers: NDArray[np.float64]) -> _Poses:
+def _matrices(file: Readable, numbers: NDArray[np.float64]) -> _Poses:
     """Return the poses of rows with 3x4 matrices, and what is suspicious about them."""
     rows = numbers.reshape(-1, 3, 4)
     if (bad := np.flatnonzero(~np.isfinite(rows).all(axis=(1, 2)))).size:
@@ -350,7 +357,7 @@ def _nanoseconds(text: str, unit: int) -> int:
     return int(time.to_integral_value())
 
 
-def _read_npz(file: Path, stream: BinaryIO) -> _Poses:
+def _read_npz(file: Readable, stream: BinaryIO) -> _Poses:
     try:
         _check_unpacked_size(stream)
         with np.load(stream) as data:
@@ -367,7 +374,7 @@ def _read_npz(file: Path, stream: BinaryIO) -> _Poses:
         ) from None
 
 
-def _check_number(file: Path, poses: int) -> None:
+def _check_number(file: Readable, poses: int) -> None:
     if poses > MAX_POSES:
         raise TrajectoryError(
             f"{file} has more than the maximum of {MAX_POSES} poses",

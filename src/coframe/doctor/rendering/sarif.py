@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
@@ -11,8 +12,7 @@ from coframe.doctor._finding import Severity
 from coframe.doctor.codes import codes, page
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
+    from coframe._sources.sources import Readable
     from coframe.doctor._diagnosis import Report
     from coframe.doctor._finding import Finding
 
@@ -22,7 +22,7 @@ SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 _LEVELS = {Severity.NOTE: "note", Severity.WARNING: "warning", Severity.ERROR: "error"}
 
 
-def as_sarif(reports: dict[str, Report], recording: Path | None) -> dict[str, Any]:
+def as_sarif(reports: dict[str, Report], recording: Readable | None) -> dict[str, Any]:
     """Return one run with a result for every finding.
 
     Args:
@@ -56,7 +56,7 @@ def as_sarif(reports: dict[str, Report], recording: Path | None) -> dict[str, An
     }
 
 
-def _result(finding: Finding, namespace: str, recording: Path | None) -> dict[str, Any]:
+def _result(finding: Finding, namespace: str, recording: Readable | None) -> dict[str, Any]:
     subject = f"{finding.subject}: " if finding.subject else ""
     location: dict[str, Any] = {}
     if recording is not None:
@@ -73,6 +73,8 @@ def _result(finding: Finding, namespace: str, recording: Path | None) -> dict[st
     }
 
 
-def file_uri(path: Path) -> str:
+def file_uri(path: Readable) -> str:
     """Return the URI of a path; relative for a relative path, which code hosting sites resolve in the repository."""
+    if not isinstance(path, Path):
+        return str(path)
     return path.as_uri() if path.is_absolute() else quote(path.as_posix())

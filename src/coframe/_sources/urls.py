@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Recognize URLs, and write them without passwords and signatures."""
+
+from __future__ import annotations
+
+import os
+import re
+from typing import Final
+from urllib.parse import unquote, urlsplit
+
+__all__ = ["HTTP", "SCHEMES", "STORES", "base_name", "is_url", "scheme_of", "without_credentials"]
+
+HTTP: Final = ("http", "https")
+# The schemes of object stores, with the package that fsspec uses for each.
+STORES: Final = {"s3": "s3fs", "gs": "gcsfs", "gcs": "gcsfs", "az": "adlfs", "abfs": "adlfs", "abfss": "adlfs"}
+SCHEMES: Final = (*HTTP, *STORES)
+_SCHEME: Final = re.compile(r"\s*([a-z][a-z0-9+.-]*)://", re.IGNORECASE | re.ASCII)
+_PASSWORD: Final = re.compile(r"//[^/@\s]*:[^/@\s]*@")  # not the container of abfs://container@account...
+_SECRET: Final = re.compile(r"[?#]\S*")
+_MAX_SHOWN: Final = 300
+
+
+def scheme_of(text: object) -> str:
+    """Return the scheme of a URL in small letters, such as ``s3``; "" for all that is not a URL, such as a path."""
+    match = _SCHEME.match(text) if isinstance(text, str) else None
+    return match[1].lower() if match else ""
+
+
+def is_url(text: object) -> bool:
+    """Return whether a string is a URL, such as ``s3://bucket/run.mcap``; False for paths, also ``C:/run.mcap``."""
+    return bool(scheme_of(text))
+
+
+def without_credentials(url: str) -> str:
+    """Return a URL, or a text with URLs, without user names with passwords and without queries, printable."""
+    shown = _SECRET.sub("", _PASSWORD.sub("//", url.strip()))
+    if len(shown) > _MAX_SHOWN:
+        shown = f"{shown[:_MAX_SHOWN]}..."
+    return "".join(each if each.isprintable() else "\N{REPLACEMENT CHARACTER}" for each in shown)
+
+
+def base_name(url: str) -> str:
+    """Return the name of the file or folder that a URL ends with; "" without one."""
+    try:
+        path = urlsplit(url.strip()).path
+    except ValueError:
+        return ""
+    name = unquote(path.rstrip("/").rpartition("/")[2], errors="replace").replace("\0", "").replace(os.sep, "_")
+    return "".join(each if each.isprintable() else "_" for each in name)[-200:]
