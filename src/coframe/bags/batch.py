@@ -21,6 +21,7 @@ import numpy as np
 from coframe._files.complete_files import write_complete
 from coframe._files.regular_files import open_regular, read_regular
 from coframe._process.optional_imports import pip_install
+from coframe._sources.sources import Source, as_source
 from coframe.bags._batch_processes import run_jobs
 from coframe.bags.recording import open_chosen
 from coframe.errors import RecordingError
@@ -124,12 +125,19 @@ def query_recordings(
         raise RecordingError(
             f"cannot create the folder {target}: {error.strerror or error}", hint="Choose another folder."
         ) from None
-    paths = list(dict.fromkeys(str(Path(bag).absolute()) for bag in bags))
+    paths = list(dict.fromkeys(_path_of(bag) for bag in bags))
     results = {}
     for result in ENGINES[on]([(path, query, str(target)) for path in paths], workers):
         results[result.bag] = result
         progress(result)
     return [results[path] for path in paths]
+
+
+def _path_of(bag: Location) -> str:
+    path = as_source(bag)
+    if isinstance(path, Source):
+        raise RecordingError(f"{path} cannot be part of a batch", hint="Download it first.")
+    return str(path.absolute())
 
 
 def _query(bag: str, query: TrajectoryQuery, folder: Path) -> QueryResult:
