@@ -9,6 +9,7 @@ import threading
 from abc import ABC, abstractmethod
 from collections import OrderedDict
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO, NamedTuple
 
 from coframe._sources.remote_error import RemoteFileError
@@ -135,6 +136,12 @@ class Storage(ABC):
         self.problems = problems
         self.size = file_size(path)  # bytes
         self.compressions: set[str] = set()  # the methods found so far
+
+    @property
+    def local_path(self) -> Path:
+        """The path, for those who read only files of this machine."""
+        assert isinstance(self.path, Path)
+        return self.path
 
     @abstractmethod
     def channels(self) -> list[Channel]:

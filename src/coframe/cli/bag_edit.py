@@ -22,6 +22,7 @@ from coframe.errors import EditError
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from coframe._sources.sources import Readable
     from coframe.bags.editing import EditReport
 
 __all__ = ["NOTHING_MATCHED", "edit", "print_report"]
@@ -124,7 +125,7 @@ def _rule_options(command: Any) -> Any:
 @click.pass_context
 def edit(
     context: click.Context,
-    bag: Path,
+    bag: Readable,
     output: Path | None,
     keep: str,
     recipes: tuple[Path, ...],

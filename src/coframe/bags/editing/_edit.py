@@ -10,6 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe._sources.sources import as_source
 from coframe.bags._compression import DamagedError
 from coframe.bags._problems import Problems
 from coframe.bags._recorded_types import RecordedTypes
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Iterable, Iterator
 
+    from coframe._sources.sources import Location
     from coframe.bags.editing._files import EditedInput
     from coframe.bags.editing._rule import Rule
 
@@ -69,7 +71,7 @@ class EditReport(NamedTuple):
 
 
 def edit(
-    source: str | os.PathLike[str],
+    source: Location,
     target: str | os.PathLike[str] | None,
     recipe: Recipe | Iterable[str | tuple[str, str]],
     *,
@@ -98,7 +100,11 @@ def edit(
         >>> coframe.bags.edit("run.mcap", "fixed.mcap", ["rename-frame Lidar=lidar"])        # doctest: +SKIP
     """
     chosen = recipe if isinstance(recipe, Recipe) else Recipe(recipe)
-    source, target = Path(source), None if target is None else Path(target)
+    file = as_source(source)
+    if not isinstance(file, Path):
+        hint = f"Copy it to this machine first: coframe bag convert {file} FOLDER"
+        raise RecordingError(f"{file} cannot be edited: it is not on this machine", hint=hint)
+    source, target = file, None if target is None else Path(target)
     if target is not None and (target.exists() or target.is_symlink()):
         raise RecordingError(f"{target} already exists and is not overwritten", hint="Choose another name.")
     problems, types, rules = Problems(), RecordedTypes(), chosen.rules()

@@ -121,17 +121,17 @@ def read_input(path: Path, types: RecordedTypes, problems: Problems, closing: Ex
         name = f"{folder.stem if not folder.is_dir() else folder.name}{MCAP.suffixes[0]}"
         size = sum(storage.size for storage in storages)
         return EditedInput([InputFile(folder, name, size, whole)], {}, folder.is_dir(), MCAP, notes)
-    if any(storage.path.parent not in {folder, folder.parent} for storage in storages):
+    if any(storage.local_path.parent not in {folder, folder.parent} for storage in storages):
         notes.append("the files were compressed as a whole; those of the edited recording are not")
         metadata = {**metadata, "compression_format": "", "compression_mode": ""}
     files = []
     for storage in storages:
         source: McapSource | SqliteSource
         if storage.format is MCAP:
-            source = McapSource(storage.path)
+            source = McapSource(storage.local_path)
         else:
-            source = SqliteSource(storage.path)
+            source = SqliteSource(storage.local_path)
             closing.callback(source.database.close)
         name = storage.path.name.removesuffix(COMPRESSED)
-        files.append(InputFile(storage.path, name, storage.size, source))
+        files.append(InputFile(storage.local_path, name, storage.size, source))
     return EditedInput(files, metadata, folder.is_dir(), formats.pop(), notes, listed)
