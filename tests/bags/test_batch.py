@@ -65,7 +65,7 @@ def test_processes_of_this_machine(bags, tmp_path):
 
 @pytest.fixture
 def in_this_process(monkeypatch):
-    monkeypatch.setitem(batch.ENGINES, "processes", lambda jobs, _workers: (query_recording(*job) for job in jobs))
+    monkeypatch.setitem(batch.ENGINES, "processes", lambda run, jobs, _workers: ((job, run(*job)) for job in jobs))
 
 
 @pytest.mark.usefixtures("in_this_process")

@@ -22,8 +22,9 @@ class FileRanges:
         size: Its size in bytes.
     """
 
-    def __init__(self, file: BinaryIO, name: str) -> None:
+    def __init__(self, file: BinaryIO, name: str, version: tuple[str, ...] = ()) -> None:
         self.name = name
+        self.version = version
         self._file = file
         try:
             self.size = file.seek(0, io.SEEK_END)

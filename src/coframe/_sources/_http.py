@@ -64,7 +64,7 @@ class _Answer(NamedTuple):
     end: int
     total: int | None  # bytes of the file; None if the server does not state it
     encoding: str  # of the body; "" for the plain bytes
-    version: tuple[str, str]  # the headers that change with the file
+    version: tuple[str, ...]  # the headers that change with the file
 
 
 class _BrokenError(Exception):
@@ -82,6 +82,7 @@ class HttpRanges:
         size: Bytes of the file; 0 if `is_ranged` is False.
         is_ranged: Whether the server sends ranges; otherwise, only `download` reads the file.
         beginning: The first bytes of the file, if ranges are sent.
+        version: The headers that change with the file: ETag and Last-Modified.
     """
 
     def __init__(self, url: str) -> None:
@@ -91,7 +92,7 @@ class HttpRanges:
         self._process = os.getpid()
         self._origin = self._parse(url)
         self._url = self._origin
-        self._version: tuple[str, str] | None = None
+        self.version: tuple[str, ...] = ("", "")
         self.size = 0
         self.is_ranged = True
         self.beginning = b""
@@ -104,7 +105,7 @@ class HttpRanges:
             self.is_ranged = True
         elif self.is_ranged:
             self.size, self.beginning = answer.total or 0, data
-            self._version = answer.version
+        self.version = answer.version
 
     def _begin(self) -> tuple[_Answer, bytes]:
         answer = self._request(0, BLOCK)
@@ -130,7 +131,7 @@ class HttpRanges:
         answer = self._request(start, end)
         if answer.status != 206 or answer.encoding:
             self._fail("the server has sent ranges before, but sends no more")
-        if answer.version != self._version or answer.total != self.size:
+        if answer.version != self.version or answer.total != self.size:
             self._fail("it has changed on the server since it was opened", "Open it again.", errno.ESTALE)
         if answer.start != start or not start < answer.end <= max(end, start + 1):
             raise _BrokenError(f"the server sent bytes {answer.start} to {answer.end} instead of {start} to {end}")

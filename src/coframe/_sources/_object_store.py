@@ -83,7 +83,7 @@ class StoreRanges(_Store):
         info = self.info()
         self.is_folder = info.get("type") == "directory"
         self.size = 0 if self.is_folder else self._size(info)
-        self._version = _version(info)
+        self.version = _version(info)
         self._checked = time.monotonic()
 
     def read_range(self, start: int, end: int) -> bytes:
@@ -97,7 +97,7 @@ class StoreRanges(_Store):
 
     def _check_version(self) -> None:
         info = self.info()
-        if _version(info) != self._version or self._size(info) != self.size:
+        if _version(info) != self.version or self._size(info) != self.size:
             self._fail("it has changed since it was opened", "Open it again.", errno.ESTALE)
         self._checked = time.monotonic()
 

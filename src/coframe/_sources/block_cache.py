@@ -37,10 +37,12 @@ class ByteRanges(Protocol):
     Attributes:
         name: Its name in error messages.
         size: Its size in bytes.
+        version: What changes when the file does, such as its ETag; may be empty.
     """
 
     name: str
     size: int
+    version: tuple[str, ...]
 
     def read_range(self, start: int, end: int) -> bytes:
         """Return the bytes from ``start`` to ``end``, which is after the last one, or fewer.

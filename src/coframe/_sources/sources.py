@@ -23,7 +23,7 @@ from coframe._files.temporary_folders import temporary_folder
 from coframe._sources._file_objects import DownloadedRanges, FileRanges, check_binary, is_local, name_of
 from coframe._sources.block_cache import MAX_RANGE, BlockCache, RangedFile
 from coframe._sources.remote_error import RemoteFileError
-from coframe._sources.urls import HTTP, SCHEMES, STORES, base_name, scheme_of, without_credentials
+from coframe._sources.urls import HTTP, SCHEMES, STORES, base_name, scheme_of, without_credentials, without_signature
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -74,6 +74,20 @@ class Source:
             RemoteFileError: It cannot be read.
         """
         return self.cache.ranges.size
+
+    @property
+    def version(self) -> list[str]:
+        """What changes when the file does, such as its ETag; empty if the server states nothing of the kind.
+
+        Raises:
+            RemoteFileError: It cannot be read.
+        """
+        return [part for part in self.cache.ranges.version if part]
+
+    @property
+    def identity(self) -> str:
+        """A name that stays the same between sessions, also if the signature in the URL does not."""
+        return str(self)
 
     @property
     def cache(self) -> BlockCache:
@@ -219,6 +233,11 @@ class _Url(Source):
     def __repr__(self) -> str:
         return f"{type(self).__name__}({str(self)!r})"
 
+    @property
+    def identity(self) -> str:
+        """The URL without signatures; it contains other parameters, and must not be shown."""
+        return without_signature(self._url)
+
     def __eq__(self, other: object) -> bool:
         return isinstance(other, _Url) and other._url == self._url
 
@@ -252,7 +271,7 @@ class _Http(_Url):
             ranges.download(whole.write, max_download(tempfile.gettempdir()), self.progress)
             on_error.pop_all()
         self.is_remote = False
-        return DownloadedRanges(whole, ranges.name)
+        return DownloadedRanges(whole, ranges.name, ranges.version)
 
 
 class _Store(_Url):

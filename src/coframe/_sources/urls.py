@@ -8,7 +8,7 @@ import re
 from typing import Final
 from urllib.parse import unquote, urlsplit
 
-__all__ = ["HTTP", "SCHEMES", "STORES", "base_name", "is_url", "scheme_of", "without_credentials"]
+__all__ = ["HTTP", "SCHEMES", "STORES", "base_name", "is_url", "scheme_of", "without_credentials", "without_signature"]
 
 HTTP: Final = ("http", "https")
 # The schemes of object stores, with the package that fsspec uses for each.
@@ -17,6 +17,12 @@ SCHEMES: Final = (*HTTP, *STORES)
 _SCHEME: Final = re.compile(r"\s*([a-z][a-z0-9+.-]*)://", re.IGNORECASE | re.ASCII)
 _PASSWORD: Final = re.compile(r"//[^/@\s]*:[^/@\s]*@")  # not the container of abfs://container@account...
 _SECRET: Final = re.compile(r"[?#]\S*")
+# Parameters of signed URLs of S3, Google Cloud Storage, CloudFront and Azure.
+_SIGNATURE: Final = re.compile(
+    r"(x-amz-[\w-]+|x-goog-[\w-]+|awsaccesskeyid|googleaccessid|signature|expires|policy|key-pair-id|token|"
+    r"sig|sv|se|sp|sr|st|spr|sip|ss|srt|skoid|sktid|skt|ske|sks|skv)=",
+    re.IGNORECASE,
+)
 _MAX_SHOWN: Final = 300
 
 
@@ -37,6 +43,13 @@ def without_credentials(url: str) -> str:
     if len(shown) > _MAX_SHOWN:
         shown = f"{shown[:_MAX_SHOWN]}..."
     return "".join(each if each.isprintable() else "\N{REPLACEMENT CHARACTER}" for each in shown)
+
+
+def without_signature(url: str) -> str:
+    """Return a URL without its password and the parameters of a signature, which differ each time."""
+    address, _, query = _PASSWORD.sub("//", url.strip()).partition("#")[0].partition("?")
+    kept = [part for part in query.split("&") if part and not _SIGNATURE.match(part)]
+    return f"{address}?{'&'.join(kept)}" if kept else address
 
 
 def base_name(url: str) -> str:

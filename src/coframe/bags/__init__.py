@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from coframe.bags._recording_format import RecordingFormat
     from coframe.bags._trajectory_query import TrajectoryQuery
     from coframe.bags._writer import Writer
-    from coframe.bags.batch import QueryResult, query_recording, query_recordings
+    from coframe.bags.batch import Omission, QueryResult, query_recording, query_recordings
     from coframe.bags.copying import CopyReport, copy_recordings
     from coframe.bags.editing import EditReport, Recipe, edit
     from coframe.bags.recording import RecordedMessage, RecordedTopic, Recording, open_bag
@@ -34,6 +34,7 @@ __all__ = [
     "EdgeSummary",
     "EditReport",
     "OfferedQos",
+    "Omission",
     "QueryResult",
     "Recipe",
     "RecordedMessage",
@@ -75,6 +76,7 @@ _MODULES = {
     "EditReport": "coframe.bags.editing",
     "FORMATS": "coframe.trajectories",
     "OfferedQos": "coframe.bags._offered_qos",
+    "Omission": "coframe.bags.batch",
     "QueryResult": "coframe.bags.batch",
     "Recipe": "coframe.bags.editing",
     "RecordedMessage": "coframe.bags.recording",

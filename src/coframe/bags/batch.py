@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run a trajectory query on many recordings in parallel; the results form one Parquet dataset.
+"""Run a query on many recordings in parallel; the results form one Parquet dataset.
 
 :func:`query_recording` does the work for one recording. Its arguments and result can be pickled, so that it runs in
 local processes, on Dask, on Ray or on any other engine.
@@ -7,88 +7,83 @@ local processes, on Dask, on Ray or on any other engine.
 
 from __future__ import annotations
 
-import hashlib
-import importlib
-import json
-import os
-from contextlib import suppress
-from dataclasses import asdict
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from coframe._files.complete_files import write_complete
-from coframe._files.regular_files import open_regular, read_regular
 from coframe._process.optional_imports import pip_install
-from coframe._sources.sources import Source, as_source
-from coframe.bags._batch_processes import run_jobs
+from coframe._sources.remote_error import RemoteFileError
+from coframe._sources.sources import as_source
+from coframe.bags._batch_engines import ENGINES, optional_module
+from coframe.bags._batch_parts import fingerprint, keep_if_of_query, part_of, previous_result, write_part
+from coframe.bags._batch_results import MANIFEST, MAX_OMISSIONS, Manifest, Omission, QueryResult, omissions_of
 from coframe.bags.recording import open_chosen
-from coframe.errors import RecordingError
+from coframe.bags.tables import TableQuery
+from coframe.bags.tables.columns import FieldSource, column, one_or_more
+from coframe.errors import CoframeError, ExtrapolationException, RecordingError, TransformException
 from coframe.trajectories.formats import POSE_COLUMNS
 
 if TYPE_CHECKING:
+    import os
     from collections.abc import Callable, Iterator, Sequence
 
-    from numpy.typing import NDArray
-
-    from coframe._sources.sources import Location
+    from coframe._sources.sources import Location, Readable
     from coframe.bags._trajectory_query import TrajectoryQuery
-    from coframe.transform.transform import Transform
+    from coframe.bags.recording import Recording
+    from coframe.bags.tables import Table
 
-__all__ = ["ENGINES", "QueryResult", "query_recording", "query_recordings"]
-
-_METADATA_KEY = b"coframe"
-_CHECKSUM_DIGITS = 64  # of SHA-256
-_MAX_CHECKSUM_FILE = 10_000  # bytes: the digest and the file name
-_REPORT_KEY = b"coframe.report"  # keys of the number of missing poses and the problems
+__all__ = ["ENGINES", "MANIFEST", "Omission", "QueryResult", "query_recording", "query_recordings"]
 
 
-class QueryResult(NamedTuple):
-    """The result of a query for one recording.
+class _FailedError(Exception):
+    """A recording that is not part of the dataset.
 
     Attributes:
-        bag: Path of the recording.
-        poses: Number of poses written.
-        missing: Number of stamps omitted because there is no transform.
-        problems: Read errors and unusual data, one message each.
-        error: Why the query failed; "" if it succeeded.
-        kept: Whether the file from an earlier run was kept.
+        reason: The word for it in :class:`QueryResult`.
+        error: What is wrong.
     """
 
-    bag: str
-    poses: int = 0
-    missing: int = 0
-    problems: tuple[str, ...] = ()
-    error: str = ""
-    kept: bool = False
+    def __init__(self, reason: str, error: Exception) -> None:
+        super().__init__(reason, error)
+        self.reason = reason
+        self.error = error
 
 
-def query_recording(bag: str, query: TrajectoryQuery, folder: str) -> QueryResult:
+def query_recording(bag: Location, query: TrajectoryQuery | TableQuery, folder: str | os.PathLike[str]) -> QueryResult:
     """Run a query on one recording and write its file in the dataset; never raises.
 
     An existing file is kept if it was written for the same query, the recording has not changed since, and the file
     has its checksum.
 
     Args:
-        bag: Path of the recording.
-        query: The frames and times of the poses to look up.
+        bag: Path or URL of the recording.
+        query: The poses or the table to write.
         folder: Folder of the dataset, which must exist.
 
     Returns:
-        The result. The file has the columns ``bag``, ``stamp_ns``, ``x`` ... ``qw``, and those of the query's validity.
+        The result. The file has the column ``bag`` and, for poses, ``stamp_ns``, ``x`` ... ``qw``, and those of the
+        query's validity; for tables, those of :meth:`Table.to_arrow` with ``flat=True``.
     """
     try:
-        return _query(bag, query, Path(folder))
+        path = as_source(bag)
+    except RemoteFileError as error:
+        return QueryResult(str(error.filename), error=_sentences(error), reason="unreadable")
+    part = part_of(path, Path(folder))
+    try:
+        return _query(path, query, part)
+    except _FailedError as failed:
+        reason, problem = failed.reason, failed.error
     except Exception as error:  # noqa: BLE001 - one recording must never stop the others
-        parts = (str(error) or type(error).__name__, getattr(error, "hint", ""))
-        sentences = [" ".join(part.split()) for part in parts if part]
-        return QueryResult(bag, error=" ".join(part if part.endswith((".", "?")) else f"{part}." for part in sentences))
+        reason, problem = "failed", error
+    there = part.name if keep_if_of_query(part, query) else ""
+    return QueryResult(str(path), error=_sentences(problem), reason=reason, file=there)
 
 
 def query_recordings(
     bags: Sequence[Location],
-    query: TrajectoryQuery,
+    query: TrajectoryQuery | TableQuery,
     folder: str | os.PathLike[str],
     *,
     on: str = "processes",
@@ -97,9 +92,12 @@ def query_recordings(
 ) -> list[QueryResult]:
     """Run the same query on many recordings in parallel, and keep the files of earlier runs.
 
+    The file ``_manifest.json`` in the folder lists all recordings: the file and the rows of each, the intervals without
+    values, and why a recording is missing. It is also written if the batch is interrupted.
+
     Args:
-        bags: Paths of the recordings. Duplicates are skipped.
-        query: The frames and times of the poses to look up in each recording.
+        bags: Paths or URLs of the recordings. Duplicates are skipped.
+        query: The poses to look up in each recording, or the table to write.
         folder: Folder of the dataset: one Parquet file per recording, which pyarrow
             (``pyarrow.dataset.dataset(folder)``), pandas, Dask and DuckDB read as one table.
         on: The engine: ``"processes"`` on this machine, ``"dask"`` or ``"ray"``. Dask uses the cluster of
@@ -112,174 +110,162 @@ def query_recordings(
         The results in the order of the recordings, failed ones included (see :attr:`QueryResult.error`).
 
     Raises:
-        RecordingError: pyarrow, Dask or Ray is not installed, or the folder cannot be created.
+        RecordingError: pyarrow, Dask or Ray is not installed, the folder cannot be written, or a URL is not valid.
         ValueError: ``on`` is not one of these names.
     """
     if on not in ENGINES:
         raise ValueError(f"No engine named {on!r}. Known engines: {', '.join(ENGINES)}.")
-    _module("pyarrow", "Parquet", pip_install("parquet"))
+    _pyarrow()
     target = Path(folder).absolute()
+    paths = list(dict.fromkeys(map(_absolute, bags)))
+    manifest = Manifest(target, query, [str(path) for path in paths])
     try:
         target.mkdir(parents=True, exist_ok=True)
+        manifest.write()
     except OSError as error:
         raise RecordingError(
             f"cannot create the folder {target}: {error.strerror or error}", hint="Choose another folder."
         ) from None
-    paths = list(dict.fromkeys(_path_of(bag) for bag in bags))
-    results = {}
-    for result in ENGINES[on]([(path, query, str(target)) for path in paths], workers):
-        results[result.bag] = result
-        progress(result)
-    return [results[path] for path in paths]
-
-
-def _path_of(bag: Location) -> str:
-    path = as_source(bag)
-    if isinstance(path, Source):
-        raise RecordingError(f"{path} cannot be part of a batch", hint="Download it first.")
-    return str(path.absolute())
-
-
-def _query(bag: str, query: TrajectoryQuery, folder: Path) -> QueryResult:
-    fingerprint = _fingerprint(bag, query)
-    part = folder / f"{Path(bag).stem}-{hashlib.sha256(bag.encode()).hexdigest()[:12]}.parquet"
-    if (kept := _previous_result(part, bag, fingerprint)) is not None:
-        return kept
-    with open_chosen(bag, query.transforms) as recording:
-        found, missing = query.run(recording)
-        stamps = np.zeros(0, np.int64) if found.stamps is None else np.atleast_1d(found.stamps)
-        gaps = query.gap_text(recording, stamps)
-        problems = (*recording.problems, gaps) if gaps else tuple(recording.problems)
-        others = query.validity_of(recording, found) if query.validity else {}
-    result = QueryResult(bag, len(found) if found.shape else 1, missing, problems)
-    _write(part, found, others, result, fingerprint)
-    return result
-
-
-def _fingerprint(bag: str, query: TrajectoryQuery) -> bytes:
-    """Return a fingerprint of the query and of the sizes and modification times of the recording's files."""
-    path = Path(bag)
-    files = sorted(path.iterdir()) if path.is_dir() else [path]
-    state = [(file.name, file.stat().st_size, file.stat().st_mtime_ns) for file in files if file.is_file()]
-    return json.dumps({"query": asdict(query), "state": state}, sort_keys=True).encode()
-
-
-def _previous_result(part: Path, bag: str, fingerprint: bytes) -> QueryResult | None:
-    """Return the result of an earlier run; None if its file does not exist, is damaged or is out of date."""
-    if not _is_intact(part):
-        return None
+    jobs: list[Any] = [(path, query, str(target)) for path in paths]
+    numbers = {id(job): number for number, job in enumerate(jobs)}
+    results: dict[int, QueryResult] = {}
     try:
-        with open_regular(part) as file:
-            metadata = importlib.import_module("pyarrow.parquet").read_metadata(file)
-    except Exception:  # noqa: BLE001 - a damaged file is written again
-        return None
-    stored = metadata.metadata or {}
-    if stored.get(_METADATA_KEY) != fingerprint or _REPORT_KEY not in stored:
-        return None
-    missing, problems = json.loads(stored[_REPORT_KEY])
-    return QueryResult(bag, int(metadata.num_rows), missing, tuple(problems), kept=True)
+        for job, result in ENGINES[on](query_recording, jobs, workers):
+            number = numbers[id(job)]
+            results[number] = result
+            manifest.add(number, result)
+            progress(result)
+    finally:
+        manifest.write()
+    return [results[number] for number in range(len(jobs))]
 
 
-def _write(
-    part: Path, poses: Transform, others: dict[str, NDArray[np.int64]], result: QueryResult, fingerprint: bytes
-) -> None:
-    arrow: Any = importlib.import_module("pyarrow")
-    parquet: Any = importlib.import_module("pyarrow.parquet")
-    values = np.concatenate([np.atleast_2d(poses.translation), np.atleast_2d(poses.quaternion)], axis=1)
-    stamps = np.zeros(1, dtype=np.int64) if poses.stamps is None else poses.stamps
-    columns = {"bag": arrow.array([result.bag] * len(values)).dictionary_encode(), "stamp_ns": stamps}
-    columns |= dict(zip(POSE_COLUMNS, values.T.copy(), strict=True)) | others
-    temporary = part.with_name(f"_{part.name}.{os.getpid()}")  # dataset readers ignore names with this prefix
+def _absolute(bag: Location) -> Readable:
     try:
-        metadata = {_METADATA_KEY: fingerprint, _REPORT_KEY: json.dumps([result.missing, result.problems])}
-        parquet.write_table(arrow.table(columns).replace_schema_metadata(metadata), temporary)
-        checksum = _checksum(temporary)
-        temporary.replace(part)
-        write_complete(_checksum_file(part), f"{checksum}  {part.name}\n".encode())
+        path = as_source(bag)
+    except RemoteFileError as error:
+        raise RecordingError(str(error), hint=error.hint) from None
+    return path.absolute() if isinstance(path, Path) else path
+
+
+def _sentences(error: Exception) -> str:
+    parts = (str(error) or type(error).__name__, getattr(error, "hint", ""))
+    sentences = [" ".join(part.split()) for part in parts if part]
+    return " ".join(part if part.endswith((".", "?")) else f"{part}." for part in sentences)
+
+
+def _query(bag: Readable, query: TrajectoryQuery | TableQuery, part: Path) -> QueryResult:
+    try:
+        made_from = fingerprint(bag, query)
     except OSError as error:
-        reason = os.strerror(error.errno) if error.errno else str(error)
-        raise RecordingError(
-            f"{part} cannot be written: {reason}", hint="Check the free space and the write permission."
-        ) from None
-    finally:
-        with suppress(OSError):
-            temporary.unlink()
-
-
-def _is_intact(part: Path) -> bool:
-    """Return whether a file matches its checksum. Without this check, a flipped bit would silently change a pose."""
+        if isinstance(error, CoframeError):
+            raise _FailedError("unreadable", error) from None
+        made_from = b""  # Opening it describes what is wrong.
+    if made_from and (kept := previous_result(part, str(bag), made_from)) is not None:
+        return kept
     try:
-        return read_regular(_checksum_file(part), _MAX_CHECKSUM_FILE)[:_CHECKSUM_DIGITS].decode() == _checksum(part)
-    except (OSError, UnicodeDecodeError):
-        return False
+        recording = open_chosen(bag, query.transforms)
+    except CoframeError as error:
+        raise _FailedError("unreadable", error) from None
+    with recording:
+        run = _TableRun(recording, query) if isinstance(query, TableQuery) else _TrajectoryRun(recording, query)
+        try:
+            return write_part(part, run.tables(), run.result, made_from)
+        except (CoframeError, ValueError) as error:
+            raise _FailedError(_reason(error, recording, query), error) from error
 
 
-def _checksum_file(part: Path) -> Path:
-    return part.with_name(f"_{part.name}.sha256")  # in the format of the program sha256sum
+def _reason(error: Exception, recording: Recording, query: TrajectoryQuery | TableQuery) -> str:
+    """Return the word for an error of a query; see :class:`QueryResult`."""
+    existing = {topic.removeprefix("/") for topic in recording.topics}
+    if any(topic.removeprefix("/") not in existing for topic in _topics(query)):
+        return "no topic"
+    if isinstance(error, ExtrapolationException):
+        return "gap"
+    return "no transform" if isinstance(error, TransformException) else "failed"
 
 
-def _checksum(file: Path) -> str:
-    digest = hashlib.sha256()
-    with open_regular(file) as stream:
-        while block := stream.read(1 << 20):
-            digest.update(block)
-    return digest.hexdigest()
+def _topics(query: TrajectoryQuery | TableQuery) -> list[str]:
+    """Return the topics that a query needs."""
+    if not isinstance(query, TableQuery):
+        return [] if query.stamps_of is None else [query.stamps_of]
+    columns = map(column, one_or_more(query.columns))
+    topics = [each.parsed.topic for each in columns if isinstance(each.parsed, FieldSource)]
+    return topics if query.at is None else [*topics, query.at]
 
 
-_Job = tuple[str, "TrajectoryQuery", str]
+class _TrajectoryRun:
+    """The poses of a recording as tables."""
+
+    def __init__(self, recording: Recording, query: TrajectoryQuery) -> None:
+        self._recording = recording
+        self._query = query
+        self._missing = 0
+        self._omitted: list[Omission] = []
+        self._gaps = ""
+
+    def tables(self) -> Iterator[Any]:
+        """Yield the poses as one table."""
+        pyarrow = _pyarrow()
+        wanted = self._query.stamps(self._recording)
+        poses, self._missing = self._query.run(self._recording)
+        stamps = np.zeros(1, dtype=np.int64) if poses.stamps is None else np.atleast_1d(poses.stamps)
+        name = f"{self._query.target}:{self._query.source}"
+        self._omitted = omissions_of(name, "no transform", ~np.isin(wanted, stamps), wanted)
+        self._gaps = self._query.gap_text(self._recording, stamps)
+        values = np.concatenate([np.atleast_2d(poses.translation), np.atleast_2d(poses.quaternion)], axis=1)
+        columns = {"bag": _bag_column(pyarrow, self._recording, len(values)), "stamp_ns": stamps}
+        columns |= dict(zip(POSE_COLUMNS, values.T.copy(), strict=True))
+        columns |= self._query.validity_of(self._recording, poses) if self._query.validity else {}
+        yield pyarrow.table(columns)
+
+    def result(self) -> QueryResult:
+        """Return the result."""
+        problems = [*self._recording.problems, self._gaps] if self._gaps else self._recording.problems
+        return QueryResult(
+            str(self._recording.path), missing=self._missing, problems=tuple(problems), omitted=tuple(self._omitted)
+        )
 
 
-def _in_processes(jobs: list[_Job], workers: int | None) -> Iterator[QueryResult]:
-    workers = min(workers or os.cpu_count() or 1, max(len(jobs), 1))
-    for job, result in run_jobs(jobs, workers):
-        died = QueryResult(job[0], error="The process died, perhaps because it ran out of memory.")
-        yield died if result is None else result
+class _TableRun:
+    """The rows of a table of a recording, in parts."""
+
+    def __init__(self, recording: Recording, query: TableQuery) -> None:
+        self._recording = recording
+        self._query = query
+        self._missing = 0
+        self._omitted: dict[str, list[Omission]] = {}
+        self._sentences: list[str] = []
+
+    def tables(self) -> Iterator[Any]:
+        """Yield the rows."""
+        pyarrow = _pyarrow()
+        omits = self._query.on_gap == "omit"
+        query = replace(self._query, on_gap="nan") if omits else self._query
+        for table in query.batches(self._recording, report=self._sentences.append):
+            self._note(table)
+            complete = np.logical_and.reduce([each.valid for each in table.columns])
+            rows = table.taken(complete) if omits else table
+            self._missing += len(table) - len(rows)
+            flat = rows.to_arrow(flat=True)
+            yield flat.add_column(0, "bag", _bag_column(pyarrow, self._recording, len(rows)))
+
+    def _note(self, table: Table) -> None:
+        for each in table.columns:
+            reason = "no message within the limits" if each.gap is None else "no samples around it within the limits"
+            new = omissions_of(each.name, reason, ~each.valid, table.stamps)
+            self._omitted[each.name] = [*self._omitted.get(each.name, ()), *new][:MAX_OMISSIONS]
+
+    def result(self) -> QueryResult:
+        """Return the result."""
+        omitted = tuple(each for found in self._omitted.values() for each in found)
+        problems = (*self._recording.problems, *self._sentences)
+        return QueryResult(str(self._recording.path), missing=self._missing, problems=problems, omitted=omitted)
 
 
-def _on_dask(jobs: list[_Job], workers: int | None) -> Iterator[QueryResult]:
-    distributed = _module("distributed", "Dask", "pip install 'dask[distributed]'")
-    options = {} if workers is None else {"n_workers": workers}
-    with distributed.Client(**options) as client:
-        futures = {client.submit(query_recording, *job, pure=False): job[0] for job in jobs}
-        for future in distributed.as_completed(list(futures)):
-            error = future.exception()
-            yield future.result() if error is None else QueryResult(futures[future], error=f"Dask reports: {error}")
+def _pyarrow() -> Any:
+    return optional_module("pyarrow", "Parquet", pip_install("parquet"))
 
 
-def _on_ray(jobs: list[_Job], workers: int | None) -> Iterator[QueryResult]:
-    ray = _module("ray", "Ray", "pip install ray")
-    is_ours = not ray.is_initialized()
-    if is_ours:
-        ray.init(log_to_driver=False, logging_level="ERROR")
-    try:
-        # A recording that crashes one worker would also crash the next one.
-        remote = ray.remote(max_retries=0)(query_recording)
-        left, waiting = list(reversed(jobs)), dict[Any, str]()
-        while left or waiting:
-            while left and (workers is None or len(waiting) < workers):
-                job = left.pop()
-                waiting[remote.remote(*job)] = job[0]
-            (reference,), _ = ray.wait(list(waiting), num_returns=1)
-            bag = waiting.pop(reference)
-            try:
-                result = ray.get(reference)
-            except Exception as error:  # noqa: BLE001 - Ray's own errors: a worker that died, a node that is gone
-                result = QueryResult(bag, error=f"Ray reports: {' '.join(str(error).split())[:300]}")
-            yield result
-    finally:
-        if is_ours:
-            ray.shutdown()
-
-
-def _module(name: str, what: str, install: str) -> Any:
-    try:
-        return importlib.import_module(name)
-    except ModuleNotFoundError:
-        raise RecordingError(f"{what} needs the package {name}, which is not installed", hint=install) from None
-
-
-ENGINES: dict[str, Callable[[list[_Job], int | None], Iterator[QueryResult]]] = {
-    "processes": _in_processes,
-    "dask": _on_dask,
-    "ray": _on_ray,
-}
+def _bag_column(pyarrow: Any, recording: Recording, rows: int) -> Any:
+    return pyarrow.array([str(recording.path)] * rows, pyarrow.string()).dictionary_encode()

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``coframe batch``: writes trajectories from many recordings as one dataset."""
+"""``coframe batch``: writes trajectories or tables of many recordings as one dataset."""
 
 from __future__ import annotations
 
 import itertools
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -13,18 +13,20 @@ from coframe.bags import TrajectoryQuery, query_recordings
 from coframe.bags.batch import ENGINES
 from coframe.bags.formats import file_kinds
 from coframe.bags.namespaces import TransformChoice
+from coframe.bags.tables import METHODS, TableQuery
+from coframe.buffer.gaps import GAP_CHOICES
 from coframe.cli.declaration import PATH, RECORDING, Command, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
-    PositiveDuration,
+    NonNegativeDuration,
     max_gap_option,
     namespace_option,
-    on_gap_option,
     recorded_listener_options,
     validity_option,
 )
 from coframe.cli.output import fail, printable, warn
 from coframe.cli.progress import item_progress
+from coframe.errors import RecordingError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,22 +34,45 @@ if TYPE_CHECKING:
 
     from coframe._sources.sources import Readable
     from coframe.bags import QueryResult
-    from coframe.buffer.gaps import OnGap
 
 __all__ = ["batch"]
 
 
 @click.command(cls=Command)
-@argument("target", metavar="TARGET", help="Frame in which the poses are expressed.")
-@argument("source", metavar="SOURCE", help="Frame whose poses are written.")
 @argument(
-    "bags",
-    metavar="BAG...",
-    type=RECORDING,
+    "names",
+    metavar="[TARGET SOURCE] BAG...",
     nargs=-1,
     required=True,
-    help=lambda: f"Recordings: {file_kinds()}s, or rosbag2 folders.",
+    help=lambda: (
+        f"Frame in which the poses are expressed, frame whose poses are written, and recordings: {file_kinds()}s, "
+        "rosbag2 folders, or their URLs. With --column, only recordings."
+    ),
 )
+@click.option(
+    "--column",
+    "-c",
+    "columns",
+    metavar="COLUMN",
+    multiple=True,
+    help="Write tables of these columns instead of poses: /odom, /imu.angular_velocity, map:camera, as for `coframe "
+    "table`; repeatable.",
+)
+@click.option("--at", metavar="TOPIC", help="With --column: write a row at the stamp of each message of this topic.")
+@click.option(
+    "--method",
+    metavar="METHOD",
+    type=click.Choice(METHODS),
+    default="nearest",
+    help="With --column: which messages the values come from: nearest, previous, match (equal stamp), or interpolate.",
+)
+@click.option(
+    "--tolerance",
+    metavar="DURATION",
+    type=NonNegativeDuration,
+    help="With --column: maximum time between a row and a message, e.g. 20ms. [default: no limit]",
+)
+@click.option("--covariance", is_flag=True, help="With --column: also write the covariances of poses.")
 @click.option(
     "--output", "-o", metavar="FOLDER", type=PATH, required=True, help="Folder to write the Parquet dataset to."
 )
@@ -64,80 +89,117 @@ __all__ = ["batch"]
     help="Number of recordings to read in parallel. [default: number of CPU cores]",
 )
 @max_gap_option
-@on_gap_option
+@click.option(
+    "--on-gap",
+    metavar="MODE",
+    type=click.Choice(GAP_CHOICES),
+    help="What to do with values that are missing: omit the row, nan, or raise, which omits the recording. [default: "
+    "omit; nan with --column]",
+)
 @validity_option
 @namespace_option
 @recorded_listener_options
-def batch(
-    target: str,
-    source: str,
-    bags: tuple[Readable, ...],
-    output: Path,
-    rate: float | None,
-    stamps_of: str | None,
-    start: str | None,
-    stop: str | None,
-    on: str,
-    workers: int | None,
-    max_gap: PositiveDuration | None,
-    on_gap: str,
-    validity: bool,
-    namespace: str | None,
-    tf_topic: str | None,
-    tf_static_topic: str | None,
-    prefix: str,
-    keep: str,
-) -> None:
-    """Write the trajectories of SOURCE relative to TARGET in many recordings as one Parquet dataset.
+def batch(names: tuple[str, ...], output: Path, on: str, workers: int | None, **options: Any) -> None:
+    """Write the trajectories of SOURCE relative to TARGET, or tables, of many recordings as one Parquet dataset.
 
-    Results of an earlier run are reused. Recordings that cannot be read are listed on standard error.
+    Results of an earlier run are reused. Recordings that cannot be read are listed on standard error, and with all
+    values that are missing in _manifest.json in the folder.
 
     Example: coframe batch map base_link runs/*.mcap -o poses
+
+    Example: coframe batch -c /odom.pose -c map:camera --at /image runs/*.mcap -o dataset
     """
+    table = bool(options["columns"])
+    frames, given = ((), names) if table else (names[:2], names[2:])
+    if not given:
+        missing = "BAG" if table or len(frames) == 2 else "TARGET SOURCE BAG"
+        fail(f"missing argument {missing}", "Example: coframe batch map base_link runs/*.mcap -o poses", code=2)
+    bags = [RECORDING.convert(each, None, None) for each in given]
     try:
-        choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
-        query = TrajectoryQuery(
-            target,
-            source,
-            rate,
-            stamps_of,
-            start,
-            stop,
-            choice,
-            max_gap=None if max_gap is None else int(max_gap),
-            on_gap=cast("OnGap", on_gap),
-            validity=validity,
-        )
-    except ValueError as error:
-        fail(str(error), code=2)
+        query = _table_query(**options) if table else _trajectory_query(*frames, **options)
+    except (RecordingError, ValueError) as error:
+        fail(str(error), getattr(error, "hint", ""), code=2)
     if on not in ENGINES:
         fail(f"--on: unknown engine {on!r}. Engines: {', '.join(ENGINES)}", code=2)
     with run_to_completion():
         answers = _run(bags, query, output, on, workers)
         bad = [one for one in answers if one.error]
         for one in answers:
-            _print_problems(one)
+            _print_problems(one, "value" if table else "transform")
         kept = sum(one.kept for one in answers)
         reused = f", {kept} of them from an earlier run" if kept else ""
         good = len(answers) - len(bad)
         poses = sum(one.poses for one in answers)
-        print(f"{printable(str(output))}: {count(poses, 'pose')} from {count(good, 'recording')}{reused}")
+        print(
+            f"{printable(str(output))}: {count(poses, 'row' if table else 'pose')} from {count(good, 'recording')}{reused}"
+        )
         if bad:
             fail(f"{len(bad)} of {count(len(answers), 'recording')} failed; see the reasons above")
 
 
+def _trajectory_query(target: str, source: str, **options: Any) -> TrajectoryQuery:
+    """Return the query of poses.
+
+    Raises:
+        ValueError: An option is not valid.
+    """
+    for name in ("at", "tolerance", "covariance"):
+        if options[name]:
+            raise ValueError(f"--{name} is for tables: give their columns with --column")
+    return TrajectoryQuery(
+        target,
+        source,
+        options["rate"],
+        options["stamps_of"],
+        options["start"],
+        options["stop"],
+        _choice(**options),
+        max_gap=None if options["max_gap"] is None else int(options["max_gap"]),
+        on_gap=options["on_gap"] or "omit",
+        validity=options["validity"],
+    )
+
+
+def _table_query(**options: Any) -> TableQuery:
+    """Return the query of a table.
+
+    Raises:
+        RecordingError: A column is not valid.
+        ValueError: An option is not valid.
+    """
+    return TableQuery(
+        options["columns"],
+        at=options["at"] or options["stamps_of"],
+        rate=options["rate"],
+        start=options["start"],
+        stop=options["stop"],
+        method=options["method"],
+        tolerance=options["tolerance"],
+        max_gap=options["max_gap"],
+        on_gap=options["on_gap"] or "nan",
+        covariance=options["covariance"],
+        transforms=_choice(**options),
+    )
+
+
+def _choice(
+    namespace: str | None, tf_topic: str | None, tf_static_topic: str | None, prefix: str, keep: str, **_others: Any
+) -> TransformChoice:
+    return TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
+
+
 def _run(
-    bags: Sequence[Readable], query: TrajectoryQuery, output: Path, on: str, workers: int | None
+    bags: Sequence[Readable], query: TrajectoryQuery | TableQuery, output: Path, on: str, workers: int | None
 ) -> list[QueryResult]:
     done = itertools.count(1)
     with item_progress("recordings", len(bags)) as show:
         return query_recordings(bags, query, output, on=on, workers=workers, progress=lambda _: show(next(done)))
 
 
-def _print_problems(one: QueryResult) -> None:
+def _print_problems(one: QueryResult, what: str) -> None:
     if one.error:
         warn(one.error if one.bag in one.error else f"{one.bag}: {one.error}")
     if one.missing:
-        warn(f"{one.bag}: no transform at {count(one.missing, 'time')}; omitted")
+        warn(f"{one.bag}: no {what} at {count(one.missing, 'time')}; omitted")
     for problem in one.problems:
         warn(f"{one.bag}: {problem}")
