@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import itertools
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, cast
 
 import click
 
@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 
     from coframe._sources.sources import Readable
     from coframe.bags import QueryResult
+    from coframe.bags.tables import Method
+    from coframe.buffer.gaps import OnGap
 
 __all__ = ["batch"]
 
@@ -99,7 +101,29 @@ __all__ = ["batch"]
 @validity_option
 @namespace_option
 @recorded_listener_options
-def batch(names: tuple[str, ...], output: Path, on: str, workers: int | None, **options: Any) -> None:
+def batch(
+    names: tuple[str, ...],
+    columns: tuple[str, ...],
+    at: str | None,
+    method: str,
+    tolerance: NonNegativeDuration | None,
+    covariance: bool,
+    output: Path,
+    rate: float | None,
+    stamps_of: str | None,
+    start: str | None,
+    stop: str | None,
+    on: str,
+    workers: int | None,
+    max_gap: PositiveDuration | None,
+    on_gap: str | None,
+    validity: bool,
+    namespace: str | None,
+    tf_topic: str | None,
+    tf_static_topic: str | None,
+    prefix: str,
+    keep: str,
+) -> None:
     """Write the trajectories of SOURCE relative to TARGET, or tables, of many recordings as one Parquet dataset.
 
     Results of an earlier run are reused. Recordings that cannot be read are listed on standard error, and with all
@@ -109,14 +133,43 @@ def batch(names: tuple[str, ...], output: Path, on: str, workers: int | None, **
 
     Example: coframe batch -c /odom.pose -c map:camera --at /image runs/*.mcap -o dataset
     """
-    table = bool(options["columns"])
-    frames, given = ((), names) if table else (names[:2], names[2:])
+    frames, given = ((), names) if columns else (names[:2], names[2:])
     if not given:
-        missing = "BAG" if table or len(frames) == 2 else "TARGET SOURCE BAG"
+        missing = "BAG" if columns or len(frames) == 2 else "TARGET SOURCE BAG"
         fail(f"missing argument {missing}", "Example: coframe batch map base_link runs/*.mcap -o poses", code=2)
+    for option, value in (("--at", at), ("--tolerance", tolerance), ("--covariance", covariance)):
+        if value and not columns:
+            fail(f"{option} is for tables", "Give their columns with --column.", code=2)
     bags = [RECORDING.convert(each, None, None) for each in given]
+    query: TableQuery | TrajectoryQuery
     try:
-        query = _table_query(**options) if table else _trajectory_query(*frames, **options)
+        choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
+        if columns:
+            query = TableQuery(
+                columns,
+                at=at or stamps_of,
+                rate=rate,
+                start=start,
+                stop=stop,
+                method=cast("Method", method),
+                tolerance=tolerance,
+                max_gap=max_gap,
+                on_gap=cast("OnGap", on_gap or "nan"),
+                covariance=covariance,
+                transforms=choice,
+            )
+        else:
+            query = TrajectoryQuery(
+                *frames,
+                rate,
+                stamps_of,
+                start,
+                stop,
+                choice,
+                max_gap=None if max_gap is None else int(max_gap),
+                on_gap=cast("OnGap", on_gap or "omit"),
+                validity=validity,
+            )
     except (RecordingError, ValueError) as error:
         fail(str(error), getattr(error, "hint", ""), code=2)
     if on not in ENGINES:
@@ -125,67 +178,15 @@ def batch(names: tuple[str, ...], output: Path, on: str, workers: int | None, **
         answers = _run(bags, query, output, on, workers)
         bad = [one for one in answers if one.error]
         for one in answers:
-            _print_problems(one, "value" if table else "transform")
+            _print_problems(one, "value" if columns else "transform")
         kept = sum(one.kept for one in answers)
         reused = f", {kept} of them from an earlier run" if kept else ""
         good = len(answers) - len(bad)
         poses = sum(one.poses for one in answers)
-        print(
-            f"{printable(str(output))}: {count(poses, 'row' if table else 'pose')} from {count(good, 'recording')}{reused}"
-        )
+        rows = count(poses, "row" if columns else "pose")
+        print(f"{printable(str(output))}: {rows} from {count(good, 'recording')}{reused}")
         if bad:
             fail(f"{len(bad)} of {count(len(answers), 'recording')} failed; see the reasons above")
-
-
-def _trajectory_query(target: str, source: str, **options: Any) -> TrajectoryQuery:
-    """Return the query of poses.
-
-    Raises:
-        ValueError: An option is not valid.
-    """
-    for name in ("at", "tolerance", "covariance"):
-        if options[name]:
-            raise ValueError(f"--{name} is for tables: give their columns with --column")
-    return TrajectoryQuery(
-        target,
-        source,
-        options["rate"],
-        options["stamps_of"],
-        options["start"],
-        options["stop"],
-        _choice(**options),
-        max_gap=None if options["max_gap"] is None else int(options["max_gap"]),
-        on_gap=options["on_gap"] or "omit",
-        validity=options["validity"],
-    )
-
-
-def _table_query(**options: Any) -> TableQuery:
-    """Return the query of a table.
-
-    Raises:
-        RecordingError: A column is not valid.
-        ValueError: An option is not valid.
-    """
-    return TableQuery(
-        options["columns"],
-        at=options["at"] or options["stamps_of"],
-        rate=options["rate"],
-        start=options["start"],
-        stop=options["stop"],
-        method=options["method"],
-        tolerance=options["tolerance"],
-        max_gap=options["max_gap"],
-        on_gap=options["on_gap"] or "nan",
-        covariance=options["covariance"],
-        transforms=_choice(**options),
-    )
-
-
-def _choice(
-    namespace: str | None, tf_topic: str | None, tf_static_topic: str | None, prefix: str, keep: str, **_others: Any
-) -> TransformChoice:
-    return TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
 
 
 def _run(
