@@ -19,6 +19,7 @@ from coframe.cli.declaration import PATH, RECORDING, Command, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     NonNegativeDuration,
+    PositiveDuration,
     max_gap_option,
     namespace_option,
     recorded_listener_options,
@@ -133,9 +134,9 @@ def batch(
 
     Example: coframe batch -c /odom.pose -c map:camera --at /image runs/*.mcap -o dataset
     """
-    frames, given = ((), names) if columns else (names[:2], names[2:])
+    given = names if columns else names[2:]
     if not given:
-        missing = "BAG" if columns or len(frames) == 2 else "TARGET SOURCE BAG"
+        missing = "BAG" if columns or len(names) == 2 else "TARGET SOURCE BAG"
         fail(f"missing argument {missing}", "Example: coframe batch map base_link runs/*.mcap -o poses", code=2)
     for option, value in (("--at", at), ("--tolerance", tolerance), ("--covariance", covariance)):
         if value and not columns:
@@ -160,7 +161,8 @@ def batch(
             )
         else:
             query = TrajectoryQuery(
-                *frames,
+                names[0],
+                names[1],
                 rate,
                 stamps_of,
                 start,
