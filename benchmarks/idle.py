@@ -3,7 +3,8 @@
 
 KIND is `node` (rclpy with a TransformListener, spun by `spin`), `loop` (the same, spun by `spin_once`), or
 `participant` (a bare DDS participant). QUANTITY is `start` (nanoseconds until it exists), `memory` (bytes of the
-process), `cpu` (percent of one core) or `wakes` (how often its threads wake per second).
+process), `per_node` (bytes of each further node of the process), `cpu` (percent of one core) or `wakes` (how often its
+threads wake per second).
 """
 
 import os
@@ -43,6 +44,15 @@ def start_node() -> object:
 
     rclpy.init()
     return rclpy.create_node("idle")
+
+
+def memory_per_node(count: int = 50) -> float:
+    """Return what each further node of this process occupies, in bytes."""
+    import rclpy
+
+    before = memory()
+    nodes = [rclpy.create_node(f"node_{number}") for number in range(count)]
+    return (memory() - before) / len(nodes)
 
 
 def measure(kind: str) -> tuple[float, float]:
@@ -98,6 +108,8 @@ def main(kind: str, quantity: str) -> float:
         return started
     if quantity == "memory":
         return memory()
+    if quantity == "per_node":
+        return memory_per_node()
     cpu, wakes = measure(kind)
     del keep
     return cpu if quantity == "cpu" else wakes

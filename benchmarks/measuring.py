@@ -73,6 +73,19 @@ class AtMost:
 
 
 @dataclass(frozen=True)
+class AtLeast:
+    """coframe's result must not be below a limit."""
+
+    limit: float
+
+    def reached(self, result: "Result") -> bool:
+        return min(result.ours) >= self.limit
+
+    def text(self, row: "Row") -> str:
+        return f"≥ {row.unit(self.limit)}"
+
+
+@dataclass(frozen=True)
 class AddsAtMost:
     """coframe's result must not exceed the other one by more than a limit."""
 
@@ -106,6 +119,10 @@ def nanoseconds(value: float) -> str:
         if value >= 10 * size:
             return f"{value / size:.{0 if value >= 100 * size else 1}f} {unit}"
     return f"{value:.{0 if value >= 100 else 1}f} ns"
+
+
+def plain(value: float) -> str:
+    return f"{value:g}"
 
 
 def percent(value: float) -> str:

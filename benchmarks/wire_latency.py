@@ -12,8 +12,8 @@ The talker and the listener run on separate processors.
 
 A transform is stored when a lookup returns it; the reader records the time on the thread that stores it. The listeners
 are `coframe`, the native reader of a buffer; `zenoh`, the reader over Zenoh; `tf2`, the TransformListener of the
-installed tf2_ros; and `udp`, a bare socket that receives the same bytes. The socket is the floor, and its two latencies
-are the same.
+installed tf2_ros; `subscription`, one of rclpy whose callback does nothing; and `udp`, a bare socket that receives the
+same bytes. The socket is the floor, and its two latencies are the same.
 """
 
 import contextlib
@@ -23,6 +23,7 @@ import statistics
 import struct
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
 from typing import Protocol
@@ -124,6 +125,26 @@ class Tf2:
         raise SystemExit("tf2_ros cannot wait for the next message: only cpu can be measured")
 
 
+class Subscription(Tf2):
+    """Listener: a subscription of rclpy whose callback does nothing, where there is no tf2_ros."""
+
+    def __init__(self) -> None:
+        import rclpy
+        from tf2_msgs.msg import TFMessage
+
+        self._received = False
+        rclpy.init()
+        self._node = rclpy.create_node("listener")
+        self._node.create_subscription(TFMessage, "/tf", self._on_message, 100)
+        threading.Thread(target=rclpy.spin, args=(self._node,), daemon=True).start()
+
+    def _on_message(self, _: object) -> None:
+        self._received = True
+
+    def has_received(self) -> bool:
+        return self._received
+
+
 class Udp:
     """Listener: a bare UDP socket."""
 
@@ -152,7 +173,13 @@ class Udp:
         return int(seconds * NS + nanoseconds), received
 
 
-LISTENERS: dict[str, Callable[[], Listener]] = {"coframe": Coframe, "zenoh": Zenoh, "tf2": Tf2, "udp": Udp}
+LISTENERS: dict[str, Callable[[], Listener]] = {
+    "coframe": Coframe,
+    "zenoh": Zenoh,
+    "tf2": Tf2,
+    "subscription": Subscription,
+    "udp": Udp,
+}
 
 
 def message() -> bytearray:
@@ -276,7 +303,7 @@ def main(quantity: str, name: str, seconds: str, argument: str = "") -> None:
     with talker(argument or sys.executable, listener, float(seconds), processor):
         print("the measurement", file=sys.stderr, flush=True)
         print(*QUANTITIES[quantity](listener, float(seconds)), flush=True)
-    if name == "tf2":
+    if name in ("tf2", "subscription"):
         os._exit(0)  # The thread of a real TransformListener keeps the process alive until rclpy.shutdown().
 
 

@@ -9,6 +9,7 @@ from benchmarks import __main__ as bench
 from benchmarks import report
 from benchmarks.measuring import (
     AddsAtMost,
+    AtLeast,
     AtMost,
     Effort,
     GrowsAtMost,
@@ -180,6 +181,7 @@ def test_a_program_is_a_contender_that_prints_its_results():
 
 
 # The targets of the project.
+ROS_WHEELS = "ROS 2 Jazzy's rclpy on Fast DDS, from wheels"
 TARGETS = [
     ("lookup, newest, D=1", "Debian's tf2", TimesAsFast(35)),
     ("lookup, newest, D=5", "Debian's tf2", TimesAsFast(25)),
@@ -259,6 +261,16 @@ TARGETS = [
     ("rclpy.init() and a node", "floor: a bare DDS participant", AtMost(60_000_000)),
     ("idle node with a TransformListener, spin(), CPU of one core", "floor: a bare DDS participant", AtMost(0.5)),
     ("idle node, spin_once(timeout_sec=0.5) in a loop, CPU of one core", "floor: a bare DDS participant", AtMost(0.5)),
+    ("Image of 1 MB over Fast DDS, latency, p50", "coframe over Cyclone DDS", TimesAsFast(2)),
+    ("Image of 1 MB over Fast DDS, latency, p50", ROS_WHEELS, TimesAsFast(2)),
+    ("Image of 1 MB over Fast DDS, sender, processor time", "coframe over Cyclone DDS", TimesAsFast(1)),
+    ("Image of 1 MB over Fast DDS, sender, processor time", ROS_WHEELS, TimesAsFast(2)),
+    ("Image of 1 MB over Fast DDS, receiver, processor time", "coframe over Cyclone DDS", TimesAsFast(1)),
+    ("Image of 1 MB over Fast DDS, receiver, processor time", ROS_WHEELS, TimesAsFast(2)),
+    ("clouds of 40 MB over Fast DDS, reliable, received of 10", "coframe over Cyclone DDS", AtLeast(10)),
+    ("clouds of 40 MB over Fast DDS, reliable, received of 10", ROS_WHEELS, AtLeast(10)),
+    ("clouds of 40 MB over Fast DDS, best effort, received of 10", "coframe over Cyclone DDS", AtLeast(10)),
+    ("clouds of 40 MB over Fast DDS, best effort, received of 10", ROS_WHEELS, AtLeast(10)),
     ("a tab of the viewer, 10 frames at 30 Hz, CPU of one core", "the lookups alone", AtMost(3)),
     ("a tab of the viewer, 100 frames at 30 Hz, CPU of one core", "the lookups alone", AtMost(3)),
     ("a tab of the viewer, 1000 frames at 30 Hz, CPU of one core", "the lookups alone", AtMost(5)),

@@ -3,11 +3,16 @@
 
 from __future__ import annotations
 
+import importlib.util
+import os
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+
+_WIRE: Final = "COFRAME_WIRE"
 
 
 class SkippedError(Exception):
@@ -47,3 +52,28 @@ def case(name: str, promise: str) -> Callable[[Callable[[], Measurement]], Calla
         return run
 
     return add
+
+
+def network_case(name: str, promise: str) -> Callable[[Callable[[], Measurement]], Callable[[], Measurement]]:
+    """Add the decorated function to the cases twice: for the middleware of this process, and for Fast DDS."""
+
+    def add(run: Callable[[], Measurement]) -> Callable[[], Measurement]:
+        case(name, promise)(run)
+        case(f"{name}_fastdds", f"over Fast DDS, {promise}")(lambda: _over_fast_dds(run))
+        return run
+
+    return add
+
+
+def _over_fast_dds(run: Callable[[], Measurement]) -> Measurement:
+    if importlib.util.find_spec("coframe_fastdds") is None:
+        raise SkippedError("coframe-fastdds is not installed")
+    before = os.environ.get(_WIRE)
+    os.environ[_WIRE] = "fastdds"
+    try:
+        return run()
+    finally:
+        if before is None:
+            del os.environ[_WIRE]
+        else:
+            os.environ[_WIRE] = before

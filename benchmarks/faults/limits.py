@@ -10,7 +10,7 @@ import subprocess
 import time
 from typing import TYPE_CHECKING
 
-from benchmarks.faults.case import Measurement, case
+from benchmarks.faults.case import Measurement, case, network_case
 from benchmarks.faults.links import RATE, RECOVERY, ROBOTS, SETTLING, evaluate
 from benchmarks.faults.processes import Processes, Program, answers, free_port, processes, wait_for
 
@@ -152,7 +152,7 @@ def _no_port_dds() -> Measurement:
     return Measurement(text, code == 1 and works == 0 and "Traceback" not in errors and "coframe: " in errors)
 
 
-@case(
+@network_case(
     "participants_130", "130 processes in a domain: all are found within 30 s, statics within 3 s, nothing is missing"
 )
 def _participants_130() -> Measurement:

@@ -10,7 +10,7 @@ import subprocess
 import time
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from benchmarks.faults.case import Measurement, case
+from benchmarks.faults.case import Measurement, network_case
 from benchmarks.faults.network import Impairment, Lan
 from benchmarks.faults.processes import processes
 
@@ -116,48 +116,48 @@ def _received_under(impairment: Impairment) -> Reception:
 _PROMISE = "no reliable message is missing, no gap above 3 s, statics within 3 s"
 
 
-@case("loss_5", f"5 % of the packets are lost: {_PROMISE}")
+@network_case("loss_5", f"5 % of the packets are lost: {_PROMISE}")
 def _loss_5() -> Measurement:
     return _under(Impairment(loss=0.05))
 
 
-@case("loss_10", f"10 % of the packets are lost: {_PROMISE}")
+@network_case("loss_10", f"10 % of the packets are lost: {_PROMISE}")
 def _loss_10() -> Measurement:
     return _under(Impairment(loss=0.10))
 
 
-@case("loss_30", f"30 % of the packets are lost: {_PROMISE}")
+@network_case("loss_30", f"30 % of the packets are lost: {_PROMISE}")
 def _loss_30() -> Measurement:
     return _under(Impairment(loss=0.30))
 
 
-@case("loss_30_arp", "30 % of the packets and of the ARP frames are lost: statics within 20 s")
+@network_case("loss_30_arp", "30 % of the packets and of the ARP frames are lost: statics within 20 s")
 def _loss_30_arp() -> Measurement:
     result = _received_under(Impairment(loss=0.30, arp=True))
     return Measurement(str(result), (result.statics or float("inf")) <= 20.0)
 
 
-@case("delay_200", f"each packet is delayed by 200 ms: {_PROMISE}")
+@network_case("delay_200", f"each packet is delayed by 200 ms: {_PROMISE}")
 def _delay_200() -> Measurement:
     return _under(Impairment(delay=0.2))
 
 
-@case("duplicates", f"half of the packets arrive twice: {_PROMISE}")
+@network_case("duplicates", f"half of the packets arrive twice: {_PROMISE}")
 def _duplicates() -> Measurement:
     return _under(Impairment(duplicates=0.5))
 
 
-@case("reordering", f"30 % of the packets are overtaken by up to 50 ms: {_PROMISE}")
+@network_case("reordering", f"30 % of the packets are overtaken by up to 50 ms: {_PROMISE}")
 def _reordering() -> Measurement:
     return _under(Impairment(reordered=0.3))
 
 
-@case("bad_wireless", f"10 % loss, 50 ms delay, 10 % duplicates, 20 % reordered at once: {_PROMISE}")
+@network_case("bad_wireless", f"10 % loss, 50 ms delay, 10 % duplicates, 20 % reordered at once: {_PROMISE}")
 def _bad_wireless() -> Measurement:
     return _under(Impairment(loss=0.1, delay=0.05, duplicates=0.1, reordered=0.2))
 
 
-@case("partition_15", "after 15 s without any packet: transforms again within 3 s, statics of new nodes too")
+@network_case("partition_15", "after 15 s without any packet: transforms again within 3 s, statics of new nodes too")
 def _partition() -> Measurement:
     with lan() as network, processes(ROS_AUTOMATIC_DISCOVERY_RANGE="SUBNET") as started:
         first, second = network.hosts
@@ -179,7 +179,7 @@ def _partition() -> Measurement:
     return Measurement(text, max(again, statics) <= RECOVERY)
 
 
-@case(
+@network_case(
     "no_multicast", "on one machine, without multicast on its loopback interface: statics within 3 s, nothing missing"
 )
 def _no_multicast() -> Measurement:
@@ -194,7 +194,7 @@ def _no_multicast() -> Measurement:
     return Measurement(str(result), result.missing == 0 and (result.statics or float("inf")) <= RECOVERY)
 
 
-@case(
+@network_case(
     "no_multicast_lan", "no multicast between machines, ROS_STATIC_PEERS on both: statics within 3 s, nothing missing"
 )
 def _no_multicast_lan() -> Measurement:

@@ -8,8 +8,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from scripts.ros_wheels.environments import DISTROS, Environment
+
 from benchmarks.measuring import MissingPeerError
-from benchmarks.process import OWN_PYTHON, Python, can_import
+from benchmarks.process import OWN_PYTHON, ROOT, TIME_LIMIT_S, Program, Python, can_import
 
 DEBIAN_PYTHON: Python = ("/usr/bin/python3", "-E")
 """Ignores PYTHONPATH, which is meant for another Python."""
@@ -50,6 +52,24 @@ DEBIAN = Tf2("Debian's tf2", _debian)
 """ROS 1's C++ core and its Python binding."""
 ROS2 = Tf2("ROS 2's tf2", _ros2)
 """The tf2 of the sourced ROS 2."""
+
+
+class RosWheels:
+    """ROS 2's rclpy and Fast DDS, which `make test-ros-wheels` installs from wheels."""
+
+    name = "ROS 2 Jazzy's rclpy on Fast DDS, from wheels"
+
+    def program(self, *arguments: str, time_limit: float = TIME_LIMIT_S) -> Program:
+        """Return a program that runs there; raise a MissingPeerError if it is not installed."""
+        environment = Environment(DISTROS["jazzy"], ROOT / "build/ros_wheels")
+        if not environment.is_complete:
+            raise MissingPeerError("make test-ros-wheels")
+        # Programs that run in coframe's Python are started from there.
+        variables = {**environment.variables(), "COFRAME_WIRE": "fastdds"}
+        return Program(*arguments, python=(str(environment.python),), environment=variables, time_limit=time_limit)
+
+
+ROS_WHEELS = RosWheels()
 
 
 def package(name: str) -> Any:

@@ -7,9 +7,11 @@ from benchmarks.rows import (
     fleet,
     history,
     idle,
+    images,
     insertion,
     large_recordings,
     listener,
+    middlewares,
     poses,
     publishing,
     recordings,
@@ -39,6 +41,8 @@ ROWS = {
     "history": history.ROWS,
     "startup": startup.ROWS,
     "idle": idle.ROWS,
+    "images": images.ROWS,
+    "middlewares": middlewares.ROWS,
     "viewer": viewer.ROWS,
 }
 """The rows by subject."""

@@ -2,6 +2,7 @@
 """Large messages are in memory that processes share, unless a reader needs them as they are."""
 
 import contextlib
+import fcntl
 import os
 import resource
 import struct
@@ -237,6 +238,43 @@ def test_a_reference_of_another_writer_is_ignored(domain: Domain, eventually) ->
     stranger.forward(REFERENCE + struct.pack("<iiI8sQ", os.getpid(), int(file.name), 1, token, 100))
     stranger.write(message(2))
     assert receive(reader, 1, eventually) == [message(2)]
+
+
+class Forged:
+    """A block of the test, with the header of a writer. Its first message is complete only if `complete` is 1."""
+
+    def __init__(self, writer: Any, complete: int, *, magic: bytes = b"cfblock1", size: int = LARGE) -> None:
+        self.file = os.memfd_create("forged", os.MFD_ALLOW_SEALING)
+        self.token = self.file + 1000
+        header = struct.pack("<8sQQ16sQII", magic, self.token, size, writer.guid, 1 << 32, complete, 0)
+        os.write(self.file, header.ljust(64, b"\0") + message(9))
+        fcntl.fcntl(self.file, fcntl.F_ADD_SEALS, fcntl.F_SEAL_SHRINK)
+
+    def __del__(self) -> None:
+        os.close(self.file)
+
+    def reference(self, size: int = LARGE) -> bytes:
+        return REFERENCE + struct.pack("<iiIQQ", os.getpid(), self.file, 1, self.token, size)
+
+
+def test_only_complete_messages_of_valid_blocks_are_read(domain: Domain, eventually) -> None:
+    """A writer may be stopped while it copies a message, and a stranger may send anything."""
+    writer, reader = domain.writer(QoS(depth=10)), domain.reader(QoS(depth=10))
+    eventually(lambda: writer.matched and reader.matched)
+    cases = (
+        (Forged(writer, 0), LARGE),
+        (Forged(writer, 1, magic=b"other  1"), LARGE),
+        (Forged(writer, 1), 2 * LARGE),
+        (Forged(writer, 1), 1 << 63),
+        (Forged(writer, 1, size=1 << 62), 1 << 40),
+    )
+    for forged, size in cases:
+        writer.forward(forged.reference(size))
+        writer.write(message(1))
+        assert receive(reader, 1, eventually) == [message(1)]
+    forged = Forged(writer, 1)
+    writer.forward(forged.reference())
+    assert receive(reader, 1, eventually) == [message(9)]
 
 
 def test_a_reader_that_fails_to_open_a_block_asks_for_the_messages_themselves(domain: Domain, eventually) -> None:

@@ -132,6 +132,11 @@ Entity* created(Entity* entity, const char* what) {
   return entity;
 }
 
+// Fast DDS writes the host and the process to the beginning of a GUID.
+bool are_in_one_process(const rtps::GUID_t& one, const rtps::GUID_t& other) {
+  return std::memcmp(one.guidPrefix.value, other.guidPrefix.value, 8) == 0;
+}
+
 Guid participant_of(const rtps::GUID_t& guid) {
   return bytes_of(rtps::GUID_t(guid.guidPrefix, rtps::c_EntityId_RTPSParticipant));
 }
@@ -292,7 +297,7 @@ void Participant::note_reader(const rtps::GUID_t& guid, bool alive, const std::s
       const std::lock_guard lock(readers_mutex_);
       topics_of_readers_.insert_or_assign(handle, topic);
     }
-    readers_of(topic)->add(handle, user_data);
+    readers_of(topic)->add(handle, user_data, are_in_one_process(guid, this->guid()));
     return;
   }
   std::string left;

@@ -27,8 +27,13 @@ dds::DataReaderQos make_qos(const Participant& participant, dds::Subscriber& sub
 }  // namespace
 
 Batch::Batch(dds::DataReader& reader, BlockMap& blocks, std::uint32_t limit)
-    : reader_(reader), blocks_(blocks), limit_(std::min(limit, kMaxMessages)) {
+    : reader_(reader), limit_(std::min(limit, kMaxMessages)) {
   reader_.take(samples_, infos_, static_cast<std::int32_t>(limit_));
+  for (int i = 0; i < infos_.length(); ++i) {
+    if (!infos_[i].valid_data || !BlockMap::is_reference(samples_[i])) continue;
+    auto message = blocks.find(bytes_of(infos_[i].sample_identity.writer_guid()), samples_[i]);
+    if (message) messages_.emplace(i, std::move(*message));
+  }
 }
 
 DataReader::DataReader(std::shared_ptr<Participant> participant, std::string topic, std::string type, void* on_change)
@@ -43,7 +48,7 @@ void DataReader::start(const Qos& qos, const std::string& user_data, bool reads_
       offers_blocks_ ? user_data + blocks_entry(static_cast<std::uint32_t>(qos.depth)) : user_data;
   subscriber_ = participant_->subscriber(qos.partitions);
   dds::Topic* shared = participant_->take_topic(topic_, type_);
-  participant_->readers_of(topic_)->add(own_key(), announced);
+  participant_->readers_of(topic_)->add(own_key(), announced, true);
   reader_ = subscriber_->create_datareader(shared, make_qos(*participant_, *subscriber_, topic_, qos, announced), this,
                                            dds::StatusMask::all());
   if (reader_ == nullptr) {
@@ -97,7 +102,7 @@ void DataReader::withdraw_blocks(dds::DataReader& reader) {
   dds::DataReaderQos qos = reader.get_qos();
   qos.user_data().setValue({user_data_.begin(), user_data_.end()});
   reader.set_qos(qos);
-  participant_->readers_of(topic_)->add(own_key(), user_data_);
+  participant_->readers_of(topic_)->add(own_key(), user_data_, true);
 }
 
 // Called by Fast DDS, which no exception may reach. If memory runs out, a message is lost.

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <fastdds/dds/core/LoanableSequence.hpp>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -42,28 +43,26 @@ class Batch {
   bool full() const { return static_cast<std::uint32_t>(infos_.length()) == limit_; }
 
   template <class Use>
-  void each(Use&& use) {
+  void each(Use&& use) const {
     constexpr std::size_t kHeaderSize = 4;
     for (int i = 0; i < infos_.length(); ++i) {
       const dds::SampleInfo& info = infos_[i];
       if (!info.valid_data) continue;
-      const rtps::GUID_t& guid = info.sample_identity.writer_guid();
-      const bool is_reference = BlockMap::is_reference(samples_[i]);
-      const auto block = is_reference ? blocks_.find(bytes_of(guid), samples_[i]) : std::nullopt;
-      if (is_reference && !block) continue;
-      const Incoming bytes = block ? block->bytes() : samples_[i];
+      const auto found = messages_.find(i);
+      if (found == messages_.end() && BlockMap::is_reference(samples_[i])) continue;
+      const Incoming bytes = found == messages_.end() ? samples_[i] : found->second.bytes();
       if (bytes.size() < kHeaderSize) continue;
-      use(Message{bytes, info.source_timestamp.to_ns(), handle_of(guid), info.sample_identity,
-                  info.related_sample_identity});
+      use(Message{bytes, info.source_timestamp.to_ns(), handle_of(info.sample_identity.writer_guid()),
+                  info.sample_identity, info.related_sample_identity});
     }
   }
 
  private:
   dds::DataReader& reader_;
-  BlockMap& blocks_;
   const std::uint32_t limit_;
   dds::LoanableSequence<Incoming> samples_;
   dds::SampleInfoSeq infos_;
+  std::map<int, BlockMessage> messages_;  // those that are in blocks, by their position
 };
 
 // Receives serialized messages on the threads of Fast DDS.

@@ -7,11 +7,17 @@
 
 #ifdef __linux__
 #include <fcntl.h>
+#include <linux/futex.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <climits>
+#include <csignal>
+#include <ctime>
 #include <fstream>
 #endif
 
@@ -51,6 +57,21 @@ std::uint64_t random_token() {
 }
 
 #ifdef __linux__
+
+void wake_all(std::atomic<std::uint32_t>& word) { syscall(SYS_futex, &word, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0); }
+
+// Waits until a message is complete. Returns false if its writer has died or was stopped.
+bool wait_for(const std::atomic<std::uint32_t>& complete, std::uint32_t number, std::int32_t process) {
+  constexpr timespec kPause{0, 50'000'000};  // between two looks at the process
+  constexpr int kPauses = 20;                // 1 s; copying 1 GB takes less
+  for (int i = 0; i < kPauses; ++i) {
+    const std::uint32_t now = complete.load(std::memory_order_acquire);
+    if (now == number) return true;
+    if (kill(process, 0) != 0 && errno == ESRCH) return false;
+    syscall(SYS_futex, &complete, FUTEX_WAIT, now, &kPause, nullptr, 0);
+  }
+  return complete.load(std::memory_order_acquire) == number;
+}
 
 // A block that holds the number of bytes, rounded up so that messages of similar sizes fit as well.
 std::unique_ptr<Block> create_block(std::size_t size) {
@@ -100,6 +121,8 @@ std::string find_namespace() {
 
 #else
 
+void wake_all(std::atomic<std::uint32_t>&) {}
+bool wait_for(const std::atomic<std::uint32_t>&, std::uint32_t, std::int32_t) { return false; }
 std::unique_ptr<Block> create_block(std::size_t) { return nullptr; }
 std::shared_ptr<Block> open_block(std::int32_t, std::int32_t) { return nullptr; }
 std::string find_namespace() { return ""; }
@@ -193,6 +216,12 @@ BlockReference BlockPool::reference(std::size_t size) const {
   return reference;
 }
 
+void BlockPool::complete() {
+  auto& complete = blocks_.back()->header().complete;
+  complete.store(number_, std::memory_order_release);
+  wake_all(complete);
+}
+
 void BlockPool::forget(std::size_t position) {
   blocks_[position]->header().retired = 1;
   blocks_.erase(blocks_.begin() + static_cast<std::ptrdiff_t>(position));
@@ -226,7 +255,9 @@ std::optional<BlockMessage> BlockMap::find(const Guid& writer, std::span<const s
   do {
     if (number_of(before) != reference.number || reading(before) == kReaders) return std::nullopt;
   } while (!state.compare_exchange_weak(before, before + kReading, std::memory_order_acquire));
-  return BlockMessage(block, reference.size);
+  BlockMessage message(block, reference.size);
+  if (!wait_for(block->header().complete, reference.number, reference.process)) return std::nullopt;
+  return message;
 }
 
 std::shared_ptr<Block> BlockMap::open(const Guid& writer, const BlockReference& reference) {

@@ -32,7 +32,8 @@ struct alignas(64) BlockHeader {
   // From high to low: 32 bits, the number of the message; 16 bits, readers that have not finished with it; 16 bits,
   // readers that are reading it.
   std::atomic<std::uint64_t> state;
-  std::atomic<std::uint32_t> retired;  // not 0: the writer no longer uses the block
+  std::atomic<std::uint32_t> complete;  // the number of the last message whose bytes are all there
+  std::atomic<std::uint32_t> retired;   // not 0: the writer no longer uses the block
 };
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free && std::atomic<std::uint32_t>::is_always_lock_free);
 
@@ -80,8 +81,10 @@ class BlockPool {
   // Returns a block for a message of `size` bytes that `readers` readers will read. The `kept` newest messages keep
   // their blocks until all readers have finished with them. Returns null if the message cannot be shared.
   Block* take(std::size_t size, std::size_t readers, std::size_t kept);
-  // Refers to the message in the newest block.
+  // Refers to the message in the newest block. It may be sent before the message is complete.
   BlockReference reference(std::size_t size) const;
+  // All bytes of the message in the newest block are there: wakes the readers that wait for them.
+  void complete();
   // Whether all readers have finished with all messages.
   bool finished() const;
   void clear();
@@ -116,8 +119,8 @@ class BlockMessage {
 class BlockMap {
  public:
   static bool is_reference(std::span<const std::uint8_t> bytes);
-  // Returns the message that `reference`, which was received from `writer`, refers to; nothing if the writer has
-  // already replaced it or the block cannot be opened.
+  // Returns the message that `reference`, which was received from `writer`, refers to, once it is complete; nothing if
+  // the writer has already replaced it or has died, or if the block cannot be opened.
   std::optional<BlockMessage> find(const Guid& writer, std::span<const std::uint8_t> reference);
   // Whether a block could not be opened.
   bool failed() const { return failed_; }

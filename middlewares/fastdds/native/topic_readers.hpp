@@ -30,32 +30,38 @@ class TopicReaders {
     std::shared_lock<std::shared_mutex> lock;
     std::size_t readers;  // at most these receive the message
     std::size_t depth;    // the largest history of a reader
+    bool has_own;         // Fast DDS may call readers of this process while a message is sent
   };
 
   // Returns nothing if messages must be sent as they are, because a reader needs that.
   std::optional<Sharing> share() const {
     std::shared_lock lock(mutex_);
-    if (depths_.empty() || others_ > 0) return std::nullopt;
-    return Sharing{std::move(lock), depths_.size(), depth_};
+    if (readers_.empty() || others_ > 0) return std::nullopt;
+    return Sharing{std::move(lock), readers_.size(), depth_, has_own_};
   }
 
-  // Called before the reader can receive messages.
-  void add(Handle reader, std::string_view user_data) {
+  // Called before the reader can receive messages. `is_own`: it is in this process.
+  void add(Handle reader, std::string_view user_data, bool is_own) {
     const std::optional<std::uint32_t> depth = depth_in(user_data);
     const std::unique_lock lock(mutex_);
-    depths_.insert_or_assign(reader, depth);
+    readers_.insert_or_assign(reader, Entry{depth, is_own});
     count();
   }
 
   // Returns whether no reader remains.
   bool remove(Handle reader) {
     const std::unique_lock lock(mutex_);
-    depths_.erase(reader);
+    readers_.erase(reader);
     count();
-    return depths_.empty();
+    return readers_.empty();
   }
 
  private:
+  struct Entry {
+    std::optional<std::uint32_t> depth;  // nothing: the reader cannot read blocks
+    bool is_own;
+  };
+
   static std::optional<std::uint32_t> depth_in(std::string_view user_data) {
     const std::string& name = block_namespace();
     if (name.empty()) return std::nullopt;
@@ -71,15 +77,18 @@ class TopicReaders {
 
   void count() {
     others_ = depth_ = 0;
-    for (const auto& [reader, depth] : depths_) {
-      others_ += depth ? 0 : 1;
-      depth_ = std::max<std::size_t>(depth_, depth.value_or(0));
+    has_own_ = false;
+    for (const auto& [reader, entry] : readers_) {
+      others_ += entry.depth ? 0 : 1;
+      depth_ = std::max<std::size_t>(depth_, entry.depth.value_or(0));
+      has_own_ = has_own_ || entry.is_own;
     }
   }
 
-  mutable std::shared_mutex mutex_;                        // protects the members below
-  std::map<Handle, std::optional<std::uint32_t>> depths_;  // nothing: the reader cannot read blocks
+  mutable std::shared_mutex mutex_;  // protects the members below
+  std::map<Handle, Entry> readers_;
   std::size_t others_ = 0, depth_ = 0;
+  bool has_own_ = false;
 };
 
 }  // namespace coframe::fastdds

@@ -114,15 +114,22 @@ std::optional<std::int64_t> Writer::send_in_block(std::span<const coframe_part> 
   if (!blocks_) blocks_.emplace(bytes_of(guid_));
   Block* block = blocks_->take(size, sharing->readers, std::max(depth_, sharing->depth));
   if (block == nullptr) return std::nullopt;
-  std::uint8_t* end = block->data();
-  for (const coframe_part& part : parts) {
-    std::memcpy(end, part.data, part.size);
-    end += part.size;
-  }
+  const auto copy = [&] {
+    std::uint8_t* end = block->data();
+    for (const coframe_part& part : parts) {
+      std::memcpy(end, part.data, part.size);
+      end += part.size;
+    }
+    blocks_->complete();
+  };
   const BlockReference reference = blocks_->reference(size);
   const coframe_part whole{&reference, sizeof reference};
   Outgoing message{{&whole, 1}, sizeof reference};
-  return send(message, nullptr);
+  // Other processes wake up while the message is copied.
+  if (sharing->has_own) copy();
+  const std::int64_t number = send(message, nullptr);
+  if (!sharing->has_own) copy();
+  return number;
 }
 
 std::int64_t Writer::send(Outgoing& message, const rtps::SampleIdentity* related) {
