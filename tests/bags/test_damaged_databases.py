@@ -4,6 +4,7 @@
 import shutil
 import sqlite3
 import struct
+import time
 
 import pytest
 from recordings import SECOND, START
@@ -147,3 +148,17 @@ def test_an_intact_recording_has_no_problems(tmp_path):
     with coframe.open_bag(write(tmp_path / "a.db3", size=5000)) as bag:
         assert bag.problems == []
         assert bag.topics["/tf"].messages == COUNT
+
+
+@pytest.mark.parametrize("size", [512, 4096])
+def test_pages_full_of_cells_that_are_no_rows_take_little_time(tmp_path, size):
+    cell = b"\x40\x01" + b"\x81\x48" + b"\x01" * 60
+    count = (size - 8 - len(cell)) // 2
+    pointer = (size - len(cell)).to_bytes(2, "big")
+    page = (b"\x0d\0\0" + count.to_bytes(2, "big") + b"\0\0\0" + pointer * count).ljust(size - len(cell), b"\0") + cell
+    file = tmp_path / "hostile.db3"
+    file.write_bytes(page * ((8 << 20) // size))
+    begin = time.process_time()
+    with pytest.raises(RecordingError, match="in none of these formats"):
+        coframe.open_bag(file)
+    assert time.process_time() - begin < 15.0  # a page has up to 250 cells, which took minutes

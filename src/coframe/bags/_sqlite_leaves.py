@@ -29,7 +29,9 @@ _USUAL_PAGE_SIZE = 4096
 _TRIED_ROWS = 1000
 _MAX_TRIED_BYTES = 64 << 20
 _BLOCK_PAGES = 256  # read at once
-_MAX_RECORD_HEADER = 200  # bytes; rows of recordings have at most seven columns
+_MAX_COLUMNS = 7  # of the tables of recordings
+_MAX_BAD_CELLS = 20  # of a page with fewer rows; the page is then left
+_MAX_TRIED_BAD_CELLS = 20_000  # until a page size or a file is given up
 _INTEGERS = (1, 2, 3, 4, 5, 6, 8, 9)  # types of values; 0 is NULL, which stands for the ID of the row
 _SIZES = (0, 1, 2, 3, 4, 6, 8, 8, 0, 0)  # bytes of a value by its type; larger types are BLOBs (even) and texts (odd)
 
@@ -79,6 +81,7 @@ class Leaves:
         (stated,) = struct.unpack_from(">H", header, 16)
         size = 65536 if stated == 1 else stated
         self._page = self._usable = 4096
+        self._bad_cells = 0  # in the current search
         self._largest = min(path.stat().st_size, MAX_UNPACKED_BYTES)
         is_valid = size in _PAGE_SIZES and header.startswith(_MAGIC)
         self._page = size if is_valid else self._likely_page_size()
@@ -103,7 +106,8 @@ class Leaves:
             max_bytes: Where to end the search, rounded up to a block of pages; None for the end of the file.
         """
         offset = 0
-        while max_bytes is None or offset < max_bytes:
+        self._bad_cells = 0
+        while max_bytes is None or (offset < max_bytes and self._bad_cells < _MAX_TRIED_BAD_CELLS):
             self._file.seek(offset)
             block = self._file.read(self._page * _BLOCK_PAGES)
             for start in range(0, len(block), self._page):
@@ -117,21 +121,33 @@ class Leaves:
 
     def _rows_of(self, page: bytes, first: int, offset: int) -> Iterator[LeafRow]:
         (number,) = struct.unpack_from(">H", page, first + 3)
+        balance = 0  # cells without a row, less those with one
         for index in range(min(number, (self._page - first - 8) // 2)):
-            try:
-                (cell,) = struct.unpack_from(">H", page, first + 8 + 2 * index)
-                size, position = _varint(page, cell)
-                row, position = _varint(page, position)
-                header, types_at = _varint(page, position)
-                types = []
-                while types_at < position + min(header, _MAX_RECORD_HEADER):
-                    kind, types_at = _varint(page, types_at)
-                    types.append(kind)
-            except (IndexError, struct.error):
-                continue
-            found = LeafRow(row - (1 << 64) if row >> 63 else row, tuple(types), offset + position, size, header)
-            if header + sum(found.sizes) == size <= self._largest:
-                yield found
+            row = self._row_of(page, first + 8 + 2 * index, offset)
+            if row is None:
+                balance += 1
+                self._bad_cells += 1
+                if balance > _MAX_BAD_CELLS:
+                    return
+            else:
+                balance -= 1
+                yield row
+
+    def _row_of(self, page: bytes, pointer: int, offset: int) -> LeafRow | None:
+        """Return the row to which a cell pointer points, None if it is not one."""
+        try:
+            (cell,) = struct.unpack_from(">H", page, pointer)
+            size, position = _varint(page, cell)
+            row, position = _varint(page, position)
+            header, types_at = _varint(page, position)
+            types: list[int] = []
+            while types_at < position + header and len(types) <= _MAX_COLUMNS:
+                kind, types_at = _varint(page, types_at)
+                types.append(kind)
+        except (IndexError, struct.error):
+            return None
+        found = LeafRow(row - (1 << 64) if row >> 63 else row, tuple(types), offset + position, size, header)
+        return found if header + sum(found.sizes) == size <= self._largest else None
 
     def integers(self, row: LeafRow, count: int) -> list[int]:
         """Return the first values of a row, which are integers, or NULL, which is returned as 0.
