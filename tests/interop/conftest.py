@@ -71,6 +71,20 @@ def run_again(shared, session_network):
     return lambda name: run(session_network, folder, sys.executable, environment_of_coframe(), name, FIRST_DOMAIN)
 
 
+@pytest.fixture(scope="session")
+def with_distribution(shared, session_network):
+    """Return a function that returns what the programs print with coframe on a distribution."""
+
+    if "COFRAME_TEST_ROS" in os.environ:
+        pytest.skip("the other outputs are those of the sourced distribution")
+
+    def outputs(distribution: str) -> dict[str, str]:
+        environment = environment_of_coframe() | {"COFRAME_DISTRO": distribution}
+        return run_all(session_network, shared / "interop" / "rclpy", sys.executable, environment)
+
+    return outputs
+
+
 def environment_of_coframe() -> dict[str, str]:
     """Return the environment without a sourced ROS 2; coframe follows its distribution, or that of the recordings."""
     distribution = os.environ.get("ROS_DISTRO", "humble") if "COFRAME_TEST_ROS" in os.environ else "humble"

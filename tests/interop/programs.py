@@ -7,8 +7,11 @@ import re
 from pathlib import Path
 from typing import NamedTuple
 
+from coframe.distributions import BEHAVIORS, Distribution
+
 HERE = Path(__file__).parent
 EXPECTED = HERE / "expected.json"
+BY_DISTRIBUTION = HERE / "by_distribution.json"
 
 # What differs between runs and machines, and how each side names the file of a class.
 _NORMALIZED = (
@@ -73,3 +76,14 @@ def expected(program: str) -> tuple[dict[Difference, str], set[Difference]]:
     listed = json.loads(EXPECTED.read_text(encoding="utf-8"))[program]
     reasons = {Difference(item["ros"], item["coframe"]): item["reason"] for item in listed}
     return reasons, {Difference(item["ros"], item["coframe"]) for item in listed if item.get("sometimes")}
+
+
+def expected_change(program: str, distribution: Distribution) -> set[Difference]:
+    """Return how the output of coframe differs between Humble and a later distribution, and check the reasons."""
+    listed = json.loads(BY_DISTRIBUTION.read_text(encoding="utf-8")).get(program, [])
+    assert {item["behavior"] for item in listed} <= BEHAVIORS.keys()
+    return {
+        Difference(item["before"], item["after"])
+        for item in listed
+        if BEHAVIORS[item["behavior"]].since <= distribution
+    }

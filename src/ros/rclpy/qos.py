@@ -282,7 +282,9 @@ class QoSProfile:
 
 def _or_infinite(duration: Duration) -> int:
     """Return a duration in nanoseconds. Zero means that the policy is not set, and the best available is infinite."""
-    return duration.nanoseconds if 0 < duration.nanoseconds < _BEST_AVAILABLE.nanoseconds else Infinite.nanoseconds
+    return (
+        duration.nanoseconds if 0 < duration.nanoseconds < DeadlineBestAvailable.nanoseconds else Infinite.nanoseconds
+    )
 
 
 def _checked_property(policy: str, kind: type[Any]) -> property:
@@ -339,14 +341,13 @@ qos_profile_rosout_default: Final = QoSProfile(
     depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL, lifespan=Duration(seconds=10)
 )
 qos_profile_action_status_default: Final = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-_BEST_AVAILABLE: Final = Duration(nanoseconds=2**63 - 2)  # RMW_DURATION_BEST_AVAILABLE
 qos_profile_best_available: Final = QoSProfile(
     depth=10,
     reliability=ReliabilityPolicy.BEST_AVAILABLE,
     durability=DurabilityPolicy.BEST_AVAILABLE,
     liveliness=LivelinessPolicy.BEST_AVAILABLE,
-    deadline=_BEST_AVAILABLE,
-    liveliness_lease_duration=_BEST_AVAILABLE,
+    deadline=DeadlineBestAvailable,
+    liveliness_lease_duration=DeadlineBestAvailable,
 )
 
 
