@@ -15,12 +15,12 @@ from coframe.messages import find
 SCAN, TWIST = "sensor_msgs/msg/LaserScan", "geometry_msgs/msg/Twist"
 
 
-def robot(folder, x, prefix="", root="map"):
+def robot(folder, x, prefix="", root="map", later=0):
     """Write the recording of a robot at x with a lidar, commands and a log."""
     run = Run()
     run.tf(f"{prefix}base", f"{prefix}lidar", START, (0.0, 0.0, 0.5), static=True)
     for i in range(100):
-        at = START + i * SECOND // 50 + round(x * MS)
+        at = START + i * SECOND // 50 + round(x * MS) + later
         run.tf(root, f"{prefix}base", at, (x, i / 100, 0.0), arrived=at + MS)
         if i % 5 == 0:
             run.scan(at, f"{prefix}lidar", arrived=at + MS)
@@ -78,22 +78,53 @@ def test_topics_of_recordings_with_prefixed_frames_stay_apart(prefixed, tmp_path
     assert "/scan: kept apart as /robot1/scan, /robot2/scan, because the frames have different prefixes" in said
 
 
-def test_topics_of_one_robot_are_joined_and_named(same, tmp_path):
-    report = copy_recordings(same, tmp_path / "both")
+def test_topics_of_one_robot_are_joined_and_named(tmp_path):
+    parts = robot(tmp_path / "a", 1.0), robot(tmp_path / "b", 1.0, later=3 * SECOND)
+    report = copy_recordings(parts, tmp_path / "both")
     assert report.notes == ["/cmd_vel: joined from 2 recordings", "/scan: joined from 2 recordings"]
     assert contents(tmp_path / "both")["/scan"] == (40, "lidar")
 
 
+def test_robots_with_the_same_names_are_an_error_with_the_ways_out(same, tmp_path):
+    code, said = merge(*same, "-o", tmp_path / "both")
+    assert (code, (tmp_path / "both").exists()) == (1, False)
+    assert "were recorded at the same time, and 2 names would be mixed up: frame base, topic /scan" in said
+    assert all(way in said for way in ("--prefix robot1/ --prefix robot2/", "--namespace /robot1", "--join"))
+    assert merge(*same, "-o", tmp_path / "both", "--join")[0] == 0
+
+
+def test_two_recorders_of_one_robot_are_joined(tmp_path):
+    one = robot(tmp_path / "a", 1.0)
+    assert merge(one, one, "-o", tmp_path / "both")[0] == 0
+
+
+def test_namespaces_keep_the_frames_and_separate_the_topics(same, tmp_path):
+    words = ("--namespace", "/robot1", "--namespace", "robot2/")
+    assert merge(*same, "-o", tmp_path / "both", *words) == (0, "")
+    with coframe.open_bag(tmp_path / "both") as bag:
+        assert set(bag.topics) == {
+            "/rosout",
+            *(f"/robot{n}/{name}" for n in (1, 2) for name in ("tf", "tf_static", "scan", "cmd_vel")),
+        }
+        assert [bag.buffers[f"/robot{n}"].lookup("map", "lidar").translation[0] for n in (1, 2)] == [1.0, 2.0]
+    code, said = merge(*same, "-o", tmp_path / "other", "--namespace", "/robot1")
+    assert (code, "--namespace: give one for each of the 2 recordings" in said) == (2, True)
+    with pytest.raises(ValueError, match="is not a namespace"):
+        copy_recordings(same, tmp_path / "other", namespaces=["/a b", ""])
+
+
 def test_joined_topics_with_different_frames_are_said_to_differ(tmp_path):
     bags = robot(tmp_path / "a", 1.0, "robot1/"), robot(tmp_path / "b", 2.0, "")
-    _, said = merge(*bags, "-o", tmp_path / "both")
+    code, said = merge(*bags, "-o", tmp_path / "both")
+    assert (code, "1 name would be mixed up: topic /scan" in said) == (1, True)
+    _, said = merge(*bags, "-o", tmp_path / "both", "--join")
     assert "/scan: joined from 2 recordings, with messages in 'lidar', 'robot1/lidar': prefixes keep those" in said
     (observation,) = observe_recording(tmp_path / "both").values()
     assert "TF028" in {finding.code for finding in diagnose(observation).every_finding()}
 
 
 def test_parts_of_one_recording_with_prefixed_frames_are_joined(tmp_path):
-    bags = robot(tmp_path / "a", 1.0, "robot1/"), robot(tmp_path / "b", 2.0, "robot1/")
+    bags = robot(tmp_path / "a", 1.0, "robot1/"), robot(tmp_path / "b", 2.0, "robot1/", later=3 * SECOND)
     assert contents(copy_recordings(bags, tmp_path / "both").path)["/scan"] == (40, "robot1/lidar")
 
 

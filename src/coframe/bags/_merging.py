@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +13,7 @@ from coframe.bags.transforms import ingest_for
 from coframe.frame_names import absolute, renaming, shared_frames
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from coframe import _core
     from coframe.bags.recording import Recording
@@ -21,6 +22,8 @@ __all__ = ["MergedNames"]
 
 # Topics that all robots share, as programs expect them under these names.
 _SHARED_TOPICS = {"/clock", "/diagnostics", "/diagnostics_agg", "/parameter_events", "/rosout", "/tf", "/tf_static"}
+_NAMESPACE = re.compile(r"[A-Za-z_]\w*(/[A-Za-z_]\w*)*", re.ASCII)
+_SYSTEM_TOPICS = {"/clock", "/rosout", "/parameter_events"}  # not in the namespace of a robot
 _MAX_COMPARED_MESSAGES = 50  # messages on a topic whose frames are compared
 
 
@@ -32,14 +35,25 @@ class MergedNames:
         prefixes: The prefix of the frames and topics of each; None: frames keep their names, and topics that several
             recordings contain are prefixed if the frames of each recording have a prefix of their own.
         keep: Frames without the prefix.
+        namespaces: The namespace of the topics of each; "" or None: they keep their names.
 
     Raises:
-        ValueError: The number of prefixes differs from that of the recordings, or one begins with a slash.
+        ValueError: The number of prefixes or namespaces differs from that of the recordings, or one is invalid.
     """
 
     def __init__(
-        self, recordings: Sequence[Recording], prefixes: Sequence[str] | None, keep: Iterable[str] = ()
+        self,
+        recordings: Sequence[Recording],
+        prefixes: Sequence[str] | None,
+        keep: Iterable[str] = (),
+        namespaces: Sequence[str] | None = None,
     ) -> None:
+        if namespaces is not None and len(namespaces) != len(recordings):
+            raise ValueError(
+                f"each of the {len(recordings)} recordings needs one namespace, in the same order; {len(namespaces)} "
+                "given"
+            )
+        self._namespaces = [_namespace(each) for each in namespaces or [""] * len(recordings)]
         if prefixes is not None and len(prefixes) != len(recordings):
             raise ValueError(
                 f"each of the {len(recordings)} recordings needs one prefix, in the same order; {len(prefixes)} given"
@@ -47,7 +61,7 @@ class MergedNames:
         self._recordings = recordings
         self._prefixes = list(prefixes) if prefixes is not None else _own_prefixes(recordings)
         self._renamings = [renaming(prefix, shared_frames(keep)) for prefix in prefixes or [""] * len(recordings)]
-        self._is_given = prefixes is not None
+        self._is_given = prefixes is not None or namespaces is not None
         self._shared: dict[str, list[int]] = {}  # the recordings that contain a topic
         for number, recording in enumerate(recordings):
             for name in recording.topics:
@@ -57,8 +71,18 @@ class MergedNames:
         """Return the renaming of the frames of a recording; None if they keep their names."""
         return self._renamings[recording]
 
+    def frame(self, recording: int) -> Callable[[str], str]:
+        """Return the function that gives the frames of a recording their new names."""
+        return self._renamings[recording] or str
+
+    def is_shared(self, topic: str) -> bool:
+        """Return whether all robots publish on a topic."""
+        return absolute(topic) in _SHARED_TOPICS
+
     def topic(self, recording: int, name: str) -> str:
         """Return the new name of a topic of a recording."""
+        if self._namespaces[recording]:
+            return name if absolute(name) in _SYSTEM_TOPICS else f"{self._namespaces[recording]}{absolute(name)}"
         prefix = self._prefixes[recording]
         is_alone = len(self._shared.get(name, ())) < 2 and not self._is_given
         if not prefix or is_alone or absolute(name) in _SHARED_TOPICS or absolute(name).startswith(f"/{prefix}"):
@@ -98,6 +122,14 @@ class MergedNames:
             return ""
         names = join_names(repr(frame) for frame in sorted(set.union(*found)))
         return f", with messages in {names}: prefixes keep those of different robots apart"
+
+
+def _namespace(name: str) -> str:
+    """Return a namespace with one slash before it and none after it; "" for none."""
+    bare = name.strip("/")
+    if bare and not _NAMESPACE.fullmatch(bare):
+        raise ValueError(f"{name[:60]!r} is not a namespace such as /robot1")
+    return f"/{bare}" if bare else ""
 
 
 def _own_prefixes(recordings: Sequence[Recording]) -> list[str]:

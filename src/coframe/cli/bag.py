@@ -306,25 +306,58 @@ def list_formats(kind: str | None, verbose: bool) -> None:
     "'robot1/' gives robot1/base_link and /robot1/scan.",
 )
 @keep_option
+@click.option(
+    "--namespace",
+    "namespaces",
+    metavar="NAMESPACE",
+    multiple=True,
+    help="Namespace of the topics of one recording, e.g. /robot1 for /robot1/tf; give one for each, '' for none.",
+)
+@click.option(
+    "--offset",
+    "offsets",
+    metavar="OFFSET",
+    multiple=True,
+    help="Offset added to the times of one recording: +35ms, or measured against the first recording by auto, "
+    "topic:/scan (messages that both received) or motion:map:base_link[=world:camera] (rotation of one body). Give one "
+    "for each recording after the first one.",
+)
+@click.option("--join", is_flag=True, help="Join equal names, even if they seem to be of different robots.")
 @compression_option
 def merge(
     bags: tuple[Path, ...],
     output: Path,
     prefixes: tuple[str, ...],
     keep: str,
+    namespaces: tuple[str, ...],
+    offsets: tuple[str, ...],
+    join: bool,
     compression: str,
 ) -> None:
     """Merge several recordings into one, with the messages in receive order.
 
     Topics with the same name are joined. If the frames of each recording have a prefix of their own, the topics are
     kept apart as /robot1/scan and /robot2/scan; --prefix adds such prefixes. Shared topics such as /tf, /clock and
-    /rosout keep their names.
+    /rosout keep their names. If the recordings are of different robots with the same names, it is an error.
 
     Example: coframe bag merge first.mcap second.mcap --prefix robot1/ --prefix robot2/ --keep map -o both
     """
     if prefixes and len(prefixes) != len(bags):
         fail(f"--prefix: give one for each of the {len(bags)} recordings, in the same order", code=2)
-    _copy(bags, output, compression, prefixes=prefixes or None, keep=keep)
+    if namespaces and len(namespaces) != len(bags):
+        fail(f"--namespace: give one for each of the {len(bags)} recordings, in the same order", code=2)
+    if offsets and len(offsets) != len(bags) - 1:
+        fail(f"--offset: give one for each of the {len(bags) - 1} recordings after the first one", code=2)
+    _copy(
+        bags,
+        output,
+        compression,
+        prefixes=prefixes or None,
+        keep=keep,
+        namespaces=namespaces or None,
+        offsets=[None, *offsets] if offsets else None,
+        join=join,
+    )
 
 
 @bag.command("slice", short_help="Copy a time span or selected topics of a recording.")

@@ -7,7 +7,7 @@ import struct
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from coframe.bags.editing._fields import FrameFields, StampFields
+from coframe.bags._message_fields import FrameFields, StampFields
 from coframe.bags.editing._transform_bytes import RecordedTransform, join_transforms, split_transforms
 from coframe.bags.transforms import is_static
 from coframe.messages.encapsulation import BYTE_ORDERS

@@ -3,13 +3,10 @@
 
 from __future__ import annotations
 
-import re
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
-from coframe.bags.editing._fields import MAX_STAMP
 from coframe.errors import EditError
-from coframe.time import SECOND, duration_ns
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -19,10 +16,7 @@ if TYPE_CHECKING:
 
     Step = Callable[[EditedMessage], bool]
 
-__all__ = ["Insertion", "Rule", "parse_offset", "split_pair"]
-
-_OFFSET = re.compile(r"([+-]?)\s*(\d.*)", re.ASCII | re.DOTALL)
-_BARE_NUMBER = re.compile(r"\d+(\.\d+)?", re.ASCII)
+__all__ = ["Insertion", "Rule", "split_pair"]
 
 
 class Insertion(NamedTuple):
@@ -113,26 +107,3 @@ def split_pair(text: str, form: str) -> tuple[str, str]:
     if not (old and equals and new) or "\0" in text:
         raise EditError(f"{text[:60]!r} does not have the form {form}")
     return old, new
-
-
-def parse_offset(text: str) -> int:
-    """Return a signed duration such as ``+35ms`` or ``-1h`` in nanoseconds; a bare number is in seconds.
-
-    Raises:
-        EditError: The text is not a duration.
-
-    Example:
-        >>> parse_offset("+35ms"), parse_offset("-1h"), parse_offset("0.5")
-        (35000000, -3600000000000, 500000000)
-    """
-    match = _OFFSET.fullmatch(text.strip())
-    amount = match[2].strip() if match else ""
-    try:
-        size = duration_ns(f"{amount}s" if _BARE_NUMBER.fullmatch(amount) else amount)
-    except (ValueError, TypeError):
-        raise EditError(f"{text[:60]!r} is not a duration such as +35ms, -1h or 0.5s") from None
-    if not match or size >= MAX_STAMP:
-        raise EditError(
-            f"{text[:60]!r} is not a duration such as +35ms, -1h or 0.5s of less than {MAX_STAMP // SECOND} s"
-        )
-    return -size if match[1] == "-" else size

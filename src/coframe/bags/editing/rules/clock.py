@@ -7,7 +7,7 @@ from collections import deque
 from typing import TYPE_CHECKING
 
 from coframe.analysis.clocks import SAME_CLOCK
-from coframe.bags.editing._fields import MAX_STAMP
+from coframe.bags._message_fields import MAX_STAMP
 from coframe.bags.editing._rule import Rule
 from coframe.errors import EditError
 from coframe.time import MINUTE, SECOND

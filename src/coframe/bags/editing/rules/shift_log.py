@@ -6,7 +6,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from coframe._output.formatting import did_you_mean
-from coframe.bags.editing._rule import Rule, parse_offset, split_pair
+from coframe.bags._signed_duration import parse_offset
+from coframe.bags.editing._rule import Rule, split_pair
 from coframe.errors import EditError
 from coframe.frame_names import absolute
 

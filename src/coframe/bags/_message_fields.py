@@ -128,7 +128,11 @@ class StampFields:
     @classmethod
     def of(cls, channel: Channel, types: RecordedTypes) -> StampFields | None:
         """Return the stamps of a channel's messages; None if they have none or cannot be decoded."""
-        message_class = _class_of(channel, types)
+        return cls.of_class(_class_of(channel, types))
+
+    @classmethod
+    def of_class(cls, message_class: Any) -> StampFields | None:
+        """Return the stamps of messages; None if they have none, or their class is unknown (None)."""
         return cls(message_class) if message_class is not None and _stamps(message_class, {}) else None
 
     @property
