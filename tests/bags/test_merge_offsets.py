@@ -85,7 +85,7 @@ def test_a_measured_offset_is_right_within_its_deviation(tmp_path, method):
     assert code == 0, said
     moved = stamps(tmp_path / "both", "camera") - stamps(bags[1], "camera")
     assert abs(moved - OFFSET).max() < 2 * MS
-    assert f"{OFFSET / SECOND:+.2f}"[:8] in said
+    assert "+3600.1" in said
     assert " +-" in said
 
 
