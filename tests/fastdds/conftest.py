@@ -21,10 +21,10 @@ def start(domain_id: int) -> Iterator[Callable[..., subprocess.Popen[str]]]:
     assert domain_id
     started: list[subprocess.Popen[str]] = []
 
-    def run(wire: str, program: str, *arguments: object) -> subprocess.Popen[str]:
+    def run(wire: str, program: str, *arguments: object, **environment: str) -> subprocess.Popen[str]:
         process = subprocess.Popen(
             [sys.executable, PROGRAMS / program, *map(str, arguments)],
-            env={**os.environ, "COFRAME_WIRE": wire},
+            env={**os.environ, "COFRAME_WIRE": wire, **environment},
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,

@@ -63,7 +63,7 @@ class Domain:
                 user_data="enclave=/;",
                 discovery_range="LOCALHOST",
                 peers=[],
-                has_profiles=False,
+                profiles="",
                 qos_from_profiles=False,
                 asynchronous=False,
                 properties=properties,
@@ -218,6 +218,7 @@ def test_a_writer_that_is_closed_at_once_is_read(domain: Domain, eventually) -> 
         struct.pack("<iiIQQ", os.getpid(), 0, 1, 1, 100),
         struct.pack("<iiIQQ", 1, 1 << 30, 1, 1, 1 << 60),
     ],
+    ids=["zeros", "ones", "no block", "too large"],  # the third one contains the process ID
 )
 def test_references_of_strangers_are_ignored(reference: bytes, domain: Domain, eventually) -> None:
     writer, reader = domain.writer(QoS(depth=10)), domain.reader(QoS(depth=10))

@@ -189,7 +189,7 @@ void define_participant(nb::module_& module) {
       .def(
           "__init__",
           [](PyParticipant* self, std::uint32_t domain, std::string name, std::string user_data, std::string range,
-             std::vector<std::string> peers, bool has_profiles, bool qos_from_profiles, bool asynchronous,
+             std::vector<std::string> peers, std::string profiles, bool qos_from_profiles, bool asynchronous,
              std::vector<std::pair<std::string, std::string>> properties, nb::object changed) {
             void* event = native(core->event, changed);
             const ParticipantOptions options{.domain = domain,
@@ -197,7 +197,7 @@ void define_participant(nb::module_& module) {
                                              .user_data = std::move(user_data),
                                              .range = std::move(range),
                                              .peers = std::move(peers),
-                                             .has_profiles = has_profiles,
+                                             .profiles = std::move(profiles),
                                              .qos_from_profiles = qos_from_profiles,
                                              .asynchronous = asynchronous,
                                              .properties = std::move(properties)};
@@ -209,7 +209,7 @@ void define_participant(nb::module_& module) {
             new (self) PyParticipant{std::move(changed), std::move(made)};
           },
           nb::kw_only(), nb::arg("domain"), nb::arg("name"), nb::arg("user_data"), nb::arg("discovery_range"),
-          nb::arg("peers"), nb::arg("has_profiles"), nb::arg("qos_from_profiles"), nb::arg("asynchronous"),
+          nb::arg("peers"), nb::arg("profiles"), nb::arg("qos_from_profiles"), nb::arg("asynchronous"),
           nb::arg("properties"), nb::arg("changed"))
       .def_prop_ro("guid", [](const PyParticipant& self) { return to_bytes(self.get().guid()); })
       .def(
@@ -218,6 +218,13 @@ void define_participant(nb::module_& module) {
       .def(
           "take_readers", [](const PyParticipant& self) { return take_changes(self.get().readers()); },
           "Return the changes of readers.")
+      .def(
+          "take_participants", [](const PyParticipant& self) { return take_changes(self.get().participants()); },
+          "Return the changes of participants.")
+      .def(
+          "take_ignored", [](const PyParticipant& self) { return self.get().take_ignored(); },
+          "Return the topics with received messages that could not be passed on, and their numbers since the last "
+          "call.")
       .def("close", &PyParticipant::close);
 }
 
@@ -520,6 +527,7 @@ NB_MODULE(_fastdds, module) {
       "handle_of", [](const nb::bytes& guid) { return handle_of(to_guid(guid)); }, nb::arg("guid"),
       "Return the handle of an endpoint in this process.");
   module.attr("SHARES_MEMORY") = kSharesMemory;
+  module.attr("HAS_SECURITY") = HAVE_SECURITY != 0;
   module.def("library", &library, "Return the path of the library that is loaded.");
   module.attr("VERSION") = COFRAME_FASTDDS_VERSION;
   define_participant(module);

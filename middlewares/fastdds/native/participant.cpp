@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "participant.hpp"
 
+#include <netinet/in.h>
 #include <pthread.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -34,6 +36,22 @@ std::uint64_t mix(std::uint64_t value) {
   return value;
 }
 
+constexpr const char* kOff = "OFF";
+
+// Returns a UDP port of the loopback interface that is free, and not in the range that DDS uses; 0 if there is none.
+std::uint16_t free_port() {
+  const int socket = ::socket(AF_INET, SOCK_DGRAM, 0);
+  if (socket < 0) return 0;
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  auto* generic = reinterpret_cast<sockaddr*>(&address);
+  const bool found = ::bind(socket, generic, size) == 0 && ::getsockname(socket, generic, &size) == 0;
+  ::close(socket);
+  return found ? ntohs(address.sin_port) : 0;
+}
+
 void set_own_transports(dds::DomainParticipantQos& qos) {
   // Participants of each peer that are looked for: all that a domain has ports for.
   constexpr std::uint32_t kPeers = 120;
@@ -52,6 +70,14 @@ void set_own_transports(dds::DomainParticipantQos& qos) {
   transports.user_transports.push_back(std::move(udp));
 }
 
+// An address that no other participant expects, so that none is received. Fast DDS 3 also ignores those that it finds.
+rtps::Locator_t unknown_address() {
+  rtps::Locator_t address;
+  IPLocator::setIPv4(address, "127.0.0.1");
+  address.port = free_port();
+  return address;
+}
+
 void add_peer(dds::DomainParticipantQos& qos, const std::string& address) {
   rtps::Locator_t peer;
   IPLocator::setIPv4(peer, address);
@@ -61,9 +87,9 @@ void add_peer(dds::DomainParticipantQos& qos, const std::string& address) {
 void set_discovery(dds::DomainParticipantQos& qos, const ParticipantOptions& options) {
   auto& builtin = qos.wire_protocol().builtin;
   const rtps::Locator_t any;
-  if (options.range == "OFF") {
+  if (options.range == kOff) {
     builtin.metatrafficMulticastLocatorList.clear();
-    builtin.metatrafficUnicastLocatorList.push_back(any);
+    builtin.metatrafficUnicastLocatorList.push_back(unknown_address());
   } else if (options.range == "LOCALHOST") {
     builtin.metatrafficMulticastLocatorList.clear();
     builtin.metatrafficUnicastLocatorList.push_back(any);
@@ -74,7 +100,7 @@ void set_discovery(dds::DomainParticipantQos& qos, const ParticipantOptions& opt
     add_peer(qos, "239.255.0.1");
   }
   // The user's configuration comes first.
-  if (!options.has_profiles && std::getenv("FASTDDS_BUILTIN_TRANSPORTS") == nullptr) set_own_transports(qos);
+  if (options.profiles.empty() && std::getenv("FASTDDS_BUILTIN_TRANSPORTS") == nullptr) set_own_transports(qos);
 }
 
 // Prints errors as one plain line each. Without it, Fast DDS writes them in colors, and reports descriptions of types
@@ -98,6 +124,10 @@ void print_errors_plainly() {
 
 dds::DomainParticipantQos make_qos(const ParticipantOptions& options) {
   auto* factory = dds::DomainParticipantFactory::get_instance();
+  // Before load_profiles(), which makes the default profile of the file that of participants.
+  if (!options.profiles.empty() && !is_ok(factory->load_XML_profiles_file(options.profiles))) {
+    throw Error("Fast DDS cannot read the profiles in " + options.profiles);
+  }
   factory->load_profiles();
   dds::DomainParticipantQos qos = factory->get_default_participant_qos();
   qos.name(options.name.c_str());
@@ -105,6 +135,8 @@ dds::DomainParticipantQos make_qos(const ParticipantOptions& options) {
   auto& builtin = qos.wire_protocol().builtin;
   builtin.readerHistoryMemoryPolicy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   builtin.writerHistoryMemoryPolicy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  // How often a client asks a discovery server for what it has not received yet.
+  builtin.discovery_config.discoveryServer_client_syncperiod = to_duration(100'000'000);
   set_discovery(qos, options);
   for (const auto& [name, value] : options.properties) qos.properties().properties().emplace_back(name, value);
   return qos;
@@ -245,6 +277,22 @@ void Participant::set_changed() {
   if (!stopped_) core->set_event(changed_);
 }
 
+std::shared_ptr<Counter> Participant::ignored_of(const std::string& topic) {
+  const std::lock_guard lock(mutex_);
+  std::shared_ptr<Counter>& counter = ignored_[topic];
+  if (counter == nullptr) counter = std::make_shared<Counter>();
+  return counter;
+}
+
+std::vector<std::pair<std::string, std::uint64_t>> Participant::take_ignored() {
+  std::vector<std::pair<std::string, std::uint64_t>> taken;
+  const std::lock_guard lock(mutex_);
+  for (auto& [topic, counter] : ignored_) {
+    if (const std::uint64_t count = counter->exchange(0); count > 0) taken.emplace_back(topic, count);
+  }
+  return taken;
+}
+
 dds::Topic* Participant::take_topic(const std::string& name, const std::string& type) {
   const std::lock_guard lock(mutex_);
   const auto found = topics_.find(name);
@@ -363,6 +411,15 @@ void Participant::store(EndpointChanges& changes, const rtps::GUID_t& guid, bool
 
 #if COFRAME_FASTDDS_3
 
+void Participant::on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryStatus reason,
+                                           const rtps::ParticipantBuiltinTopicData& info, bool& ignored) {
+  using Status = rtps::ParticipantDiscoveryStatus;
+  ignored = options_.range == kOff;
+  if (ignored) return;
+  const bool alive = reason == Status::DISCOVERED_PARTICIPANT || reason == Status::CHANGED_QOS_PARTICIPANT;
+  store(participants_, info.guid, alive, [&](EndpointChange& change) { change.user_data = text_of(info.user_data); });
+}
+
 void Participant::on_data_writer_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryStatus reason,
                                            const rtps::PublicationBuiltinTopicData& info, bool& ignored) {
   using Status = rtps::WriterDiscoveryStatus;
@@ -404,6 +461,13 @@ void forget_multicast(const rtps::ReaderProxyData& data) {
 }
 
 }  // namespace
+
+void Participant::on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&& info) {
+  using Info = rtps::ParticipantDiscoveryInfo;
+  const bool alive = info.status == Info::DISCOVERED_PARTICIPANT || info.status == Info::CHANGED_QOS_PARTICIPANT;
+  store(participants_, info.info.m_guid, alive,
+        [&](EndpointChange& change) { change.user_data = text_of(info.info.m_userData); });
+}
 
 void Participant::on_publisher_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryInfo&& info) {
   const auto& data = info.info;

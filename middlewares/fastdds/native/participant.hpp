@@ -77,13 +77,15 @@ class EndpointChanges {
   std::unordered_map<Handle, EndpointChange> changes_;
 };
 
+using Counter = std::atomic<std::uint64_t>;
+
 struct ParticipantOptions {
   std::uint32_t domain;
   std::string name;
   std::string user_data;
   std::string range;               // OFF, LOCALHOST or SUBNET; otherwise, what the configuration of Fast DDS says
   std::vector<std::string> peers;  // IPv4 addresses
-  bool has_profiles;               // the user's XML file configures transports
+  std::string profiles;            // the user's XML file, which configures transports; empty if there is none
   bool qos_from_profiles;          // endpoints use the profile with the name of their topic
   bool asynchronous;               // endpoints send on a thread of Fast DDS
   std::vector<std::pair<std::string, std::string>> properties;
@@ -101,7 +103,14 @@ class Participant final : dds::DomainParticipantListener {
   rtps::GUID_t guid() const { return participant_->guid(); }
   EndpointChanges& writers() { return writers_; }
   EndpointChanges& readers() { return readers_; }
+  // Other participants, of which only the GUID and the user data are set.
+  EndpointChanges& participants() { return participants_; }
   const ParticipantOptions& options() const { return options_; }
+
+  // The number of received messages of a topic that could not be passed on.
+  std::shared_ptr<Counter> ignored_of(const std::string& topic);
+  // Returns the numbers that are not 0, and sets them to 0.
+  std::vector<std::pair<std::string, std::uint64_t>> take_ignored();
 
   // `changed` is not set from now on.
   void stop() { stopped_ = true; }
@@ -131,11 +140,14 @@ class Participant final : dds::DomainParticipantListener {
   };
 
 #if COFRAME_FASTDDS_3
+  void on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryStatus reason,
+                                const rtps::ParticipantBuiltinTopicData& info, bool& ignored) override;
   void on_data_writer_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryStatus reason,
                                 const rtps::PublicationBuiltinTopicData& info, bool& ignored) override;
   void on_data_reader_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryStatus reason,
                                 const rtps::SubscriptionBuiltinTopicData& info, bool& ignored) override;
 #else
+  void on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&& info) override;
   void on_publisher_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryInfo&& info) override;
   void on_subscriber_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& info) override;
 #endif
@@ -148,12 +160,13 @@ class Participant final : dds::DomainParticipantListener {
   const ParticipantOptions options_;
   void* const changed_;
   std::atomic<bool> stopped_ = false;
-  EndpointChanges writers_, readers_;
+  EndpointChanges writers_, readers_, participants_;
   std::mutex readers_mutex_;  // protects the two members below
   std::map<std::string, std::shared_ptr<TopicReaders>> readers_of_;
   std::unordered_map<Handle, std::string> topics_of_readers_;
-  std::mutex mutex_;  // protects the three members below
+  std::mutex mutex_;  // protects the four members below
   std::map<std::string, SharedTopic> topics_;
+  std::map<std::string, std::shared_ptr<Counter>> ignored_;
   std::map<Partitions, dds::Publisher*> publishers_;
   std::map<Partitions, dds::Subscriber*> subscribers_;
   dds::DomainParticipant* participant_ = nullptr;

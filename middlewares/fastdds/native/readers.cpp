@@ -26,8 +26,8 @@ dds::DataReaderQos make_qos(const Participant& participant, dds::Subscriber& sub
 
 }  // namespace
 
-Batch::Batch(dds::DataReader& reader, BlockMap& blocks, std::uint32_t limit)
-    : reader_(reader), limit_(std::min(limit, kMaxMessages)) {
+Batch::Batch(dds::DataReader& reader, BlockMap& blocks, Counter& ignored, std::uint32_t limit)
+    : reader_(reader), ignored_(ignored), limit_(std::min(limit, kMaxMessages)) {
   reader_.take(samples_, infos_, static_cast<std::int32_t>(limit_));
   for (int i = 0; i < infos_.length(); ++i) {
     if (!infos_[i].valid_data || !BlockMap::is_reference(samples_[i])) continue;
@@ -37,7 +37,11 @@ Batch::Batch(dds::DataReader& reader, BlockMap& blocks, std::uint32_t limit)
 }
 
 DataReader::DataReader(std::shared_ptr<Participant> participant, std::string topic, std::string type, void* on_change)
-    : participant_(std::move(participant)), topic_(std::move(topic)), type_(std::move(type)), events_(on_change) {}
+    : ignored_(participant->ignored_of(topic)),
+      participant_(std::move(participant)),
+      topic_(std::move(topic)),
+      type_(std::move(type)),
+      events_(on_change) {}
 
 void DataReader::start(const Qos& qos, const std::string& user_data, bool reads_blocks) {
   check_not_forked();
@@ -105,11 +109,12 @@ void DataReader::withdraw_blocks(dds::DataReader& reader) {
   participant_->readers_of(topic_)->add(own_key(), user_data_, true);
 }
 
-// Called by Fast DDS, which no exception may reach. If memory runs out, a message is lost.
+// Called by Fast DDS, which no exception may reach. If memory runs out, at least one message is lost.
 void DataReader::on_data_available(dds::DataReader* reader) {
   try {
     on_data(*reader);
   } catch (...) {
+    ++*ignored_;
   }
 }
 
@@ -136,7 +141,7 @@ Reader::Taken::Taken(Reader& reader, std::uint32_t limit) : access_(reader) {
   if (native == nullptr) return;
   if (reader.blocks_.failed()) reader.withdraw_blocks(*native);
   reader.pending_ = false;
-  batch_.emplace(*native, reader.blocks_, limit);
+  batch_.emplace(*native, reader.blocks_, *reader.ignored_, limit);
   if (batch_->full()) reader.pending_ = true;
   if (batch_->empty()) reader.blocks_.queue_is_empty();
 }
@@ -151,7 +156,7 @@ void Tap::on_data(dds::DataReader& reader) {
   const std::int64_t arrived = now();
   const std::lock_guard lock(mutex_);
   while (true) {
-    Batch batch(reader, blocks_, Batch::kMaxMessages);
+    Batch batch(reader, blocks_, *ignored_, Batch::kMaxMessages);
     if (batch.empty()) break;
     batch.each([&](const Message& message) { store(message, arrived); });
   }
@@ -192,7 +197,7 @@ TfReader::TfReader(std::shared_ptr<Participant> participant, std::string topic, 
 
 void TfReader::on_data(dds::DataReader& reader) {
   while (true) {
-    Batch batch(reader, blocks_, Batch::kMaxMessages);
+    Batch batch(reader, blocks_, *ignored_, Batch::kMaxMessages);
     if (batch.empty()) return;
     batch.each([&](const Message& message) {
       core->add_to_store(store_, message.writer, message.bytes.data(), message.bytes.size());

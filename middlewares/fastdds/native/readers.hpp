@@ -32,7 +32,8 @@ class Batch {
   // The most messages in a batch; a default of Fast DDS.
   static constexpr std::uint32_t kMaxMessages = 32;
 
-  Batch(dds::DataReader& reader, BlockMap& blocks, std::uint32_t limit);
+  // `ignored` counts messages that are too short to be any.
+  Batch(dds::DataReader& reader, BlockMap& blocks, Counter& ignored, std::uint32_t limit);
   ~Batch() { reader_.return_loan(samples_, infos_); }
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
@@ -51,7 +52,10 @@ class Batch {
       const auto found = messages_.find(i);
       if (found == messages_.end() && BlockMap::is_reference(samples_[i])) continue;
       const Incoming bytes = found == messages_.end() ? samples_[i] : found->second.bytes();
-      if (bytes.size() < kHeaderSize) continue;
+      if (bytes.size() < kHeaderSize) {
+        ++ignored_;
+        continue;
+      }
       use(Message{bytes, info.source_timestamp.to_ns(), handle_of(info.sample_identity.writer_guid()),
                   info.sample_identity, info.related_sample_identity});
     }
@@ -59,6 +63,7 @@ class Batch {
 
  private:
   dds::DataReader& reader_;
+  Counter& ignored_;
   const std::uint32_t limit_;
   dds::LoanableSequence<Incoming> samples_;
   dds::SampleInfoSeq infos_;
@@ -106,6 +111,8 @@ class DataReader : protected dds::DataReaderListener {
   void withdraw_blocks(dds::DataReader& reader);
 
   BlockMap blocks_;
+  // Messages that could not be passed on, shared by the readers of the topic.
+  const std::shared_ptr<Counter> ignored_;
 
  private:
   friend class Access;

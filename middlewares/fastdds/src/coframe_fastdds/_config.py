@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import re
 import socket
 from typing import TYPE_CHECKING, Final, NamedTuple
 
@@ -20,7 +21,11 @@ PROFILE_VARIABLES: Final = ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_P
 _SERVER: Final = "ROS_DISCOVERY_SERVER"
 _QOS_FROM_XML: Final = "RMW_FASTRTPS_USE_QOS_FROM_XML"
 _MODE: Final = "RMW_FASTRTPS_PUBLICATION_MODE"
-_MODES: Final = ("SYNCHRONOUS", "ASYNCHRONOUS", "AUTO")
+_MAX_PORT: Final = 65535
+# An empty entry stands for a server with another number. Fast DDS assumes UDPv4, and its own port.
+_SERVER_ENTRY = re.compile(
+    r"(?:(?:UDP|TCP)v[46]:)?(?:\[(?P<bracketed>[0-9A-Za-z.:\-]+)\]|(?P<host>[0-9A-Za-z.\-]+))(?::(?P<port>\d+))?"
+)
 
 
 class Config(NamedTuple):
@@ -57,10 +62,10 @@ def read(environment: Mapping[str, str] = os.environ) -> Config:
     return Config(
         discovery_range(environment),
         tuple(static_peers(environment)),
-        environment.get(_SERVER, "").strip(),
+        _servers(environment),
         _profiles(environment),
-        environment.get(_QOS_FROM_XML, "").strip() == "1",
-        _publication_mode(environment) == "ASYNCHRONOUS",
+        _choice(environment, _QOS_FROM_XML, ("0", "1")) == "1",
+        _choice(environment, _MODE, ("SYNCHRONOUS", "ASYNCHRONOUS", "AUTO")) == "ASYNCHRONOUS",
         enclave,
         properties,
     )
@@ -78,7 +83,7 @@ def addresses(hosts: tuple[str, ...]) -> list[str]:
             found += {str(entry[4][0]) for entry in socket.getaddrinfo(host, None, socket.AF_INET)}
         except OSError as error:
             raise WireError(
-                f"ROS_STATIC_PEERS contains {host!r}, whose address is unknown: {error}.",
+                f"ROS_STATIC_PEERS contains {host!r}, whose address is unknown: {_reason(error)}.",
                 hint="Fast DDS needs an IPv4 address or a name that this machine can resolve.",
             ) from error
     return found
@@ -91,7 +96,7 @@ def _profiles(environment: Mapping[str, str]) -> str:
             try:
                 check_regular(path, MAX_BYTES)
             except UnsuitableFileError as error:
-                raise WireError(f"{name}: {error}.") from None
+                raise WireError(f"{name}: {error}.", hint=f"Correct it, or unset {name}.") from None
             except OSError as error:
                 raise WireError(
                     f"{name} is {path!r}, which cannot be read: {error.strerror}.", hint=f"Correct it, or unset {name}."
@@ -100,8 +105,40 @@ def _profiles(environment: Mapping[str, str]) -> str:
     return ""
 
 
-def _publication_mode(environment: Mapping[str, str]) -> str:
-    mode = environment.get(_MODE, "").strip().upper() or "SYNCHRONOUS"
-    if mode not in _MODES:
-        raise WireError(f"{_MODE} is {mode!r}: it must be one of {', '.join(_MODES)}.", hint=f"Unset {_MODE}.")
-    return mode
+def _servers(environment: Mapping[str, str]) -> str:
+    """Return the discovery servers: entries HOST:PORT, separated by semicolons. Fast DDS reads them itself."""
+    servers = environment.get(_SERVER, "").strip()
+    for entry in servers.split(";"):
+        if not (entry := entry.strip()):
+            continue
+        found = _SERVER_ENTRY.fullmatch(entry)
+        if found is None or int(found["port"] or 0) > _MAX_PORT:
+            raise WireError(
+                f"{_SERVER} contains {entry!r}, which is not the address of a discovery server.",
+                hint=f"Use HOST:PORT, with a port up to {_MAX_PORT}, and semicolons between servers: "
+                f"{_SERVER}='192.168.1.7:11811'.",
+            )
+        host = found["bracketed"] or found["host"]
+        try:
+            socket.getaddrinfo(host, None)
+        except OSError as error:
+            raise WireError(
+                f"{_SERVER} contains {host!r}, whose address is unknown: {_reason(error)}.",
+                hint=f"Correct it, or unset {_SERVER} to discover nodes without a server.",
+            ) from error
+    return servers
+
+
+def _choice(environment: Mapping[str, str], name: str, values: tuple[str, ...]) -> str:
+    """Return a variable that has one of some values; the first one if it is not set."""
+    value = environment.get(name, "").strip().upper() or values[0]
+    if value not in values:
+        raise WireError(
+            f"{name} is {environment[name]!r}: it must be {', '.join(values[:-1])} or {values[-1]}.",
+            hint=f"Unset it for the default, {values[0]}.",
+        )
+    return value
+
+
+def _reason(error: OSError) -> str:
+    return error.strerror or str(error)

@@ -10,6 +10,7 @@ Qos: TypeAlias = tuple[Any, ...]  # see coframe_fastdds._session.native_qos
 
 VERSION: str
 SHARES_MEMORY: bool
+HAS_SECURITY: bool
 
 def library() -> str:
     """Return the path of the library that is loaded."""
@@ -28,7 +29,7 @@ class Participant:
         user_data: str,
         discovery_range: str,
         peers: Sequence[str],
-        has_profiles: bool,
+        profiles: str,
         qos_from_profiles: bool,
         asynchronous: bool,
         properties: Sequence[tuple[str, str]],
@@ -41,6 +42,12 @@ class Participant:
 
     def take_readers(self) -> list[tuple[Any, ...]]:
         """Return the changes of readers."""
+
+    def take_participants(self) -> list[tuple[Any, ...]]:
+        """Return the changes of participants."""
+
+    def take_ignored(self) -> list[tuple[str, int]]:
+        """Return the topics with received messages that could not be passed on, and how many since the last call."""
 
     def close(self) -> None: ...
 

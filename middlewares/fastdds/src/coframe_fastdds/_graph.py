@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import time
+from typing import TYPE_CHECKING, Any, Final
 
 from coframe.wire.rtps.graph import DdsGraph
 
@@ -12,6 +13,9 @@ if TYPE_CHECKING:
     from coframe.wire.graph import DiscoveredEndpoint
     from coframe_fastdds import _fastdds as native
 
+_SERVER: Final = "the discovery server"
+_SERVER_TIME: Final = 2.0  # seconds in which it reports the other participants
+
 
 class FastDdsGraph(DdsGraph):
     """The graph of a DDS domain. All implementations of DDS are understood, because both forms of requests are.
@@ -19,10 +23,25 @@ class FastDdsGraph(DdsGraph):
     Args:
         participant: The participant, which discovers endpoints.
         info_reader: Receives the messages of the topic ros_discovery_info.
+        has_server: Whether participants are discovered through a server, which takes longer.
     """
 
-    def __init__(self, participant: native.Participant, info_reader: BackendReader) -> None:
-        super().__init__(info_reader, _Changes(participant.take_writers), _Changes(participant.take_readers))
+    def __init__(self, participant: native.Participant, info_reader: BackendReader, *, has_server: bool) -> None:
+        super().__init__(
+            info_reader,
+            _Changes(participant.take_writers),
+            _Changes(participant.take_readers),
+            _Changes(participant.take_participants),
+        )
+
+        self._server_deadline = time.monotonic() + (_SERVER_TIME if has_server else 0.0)
+
+    def unnamed_participants(self) -> list[str]:
+        """Return the implementations of participants without known nodes, and the server until it has reported any."""
+        if unnamed := super().unnamed_participants():
+            return unnamed
+        waits = time.monotonic() < self._server_deadline and not self.participants()
+        return [_SERVER] if waits else []
 
     def foreign_services(self, peer: DiscoveredEndpoint) -> str:
         """Return "": this process understands both forms of requests."""
@@ -31,7 +50,10 @@ class FastDdsGraph(DdsGraph):
 
 
 class _Changes:
-    """The writers or the readers that a participant discovers. Implements `coframe.wire.rtps.graph.EndpointReader`."""
+    """The writers, readers or participants that a participant discovers.
+
+    Implements `coframe.wire.rtps.graph.EndpointReader`.
+    """
 
     def __init__(self, take: Any) -> None:
         self.take = take

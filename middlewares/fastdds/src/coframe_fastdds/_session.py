@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import logging
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final, TypeVar
@@ -19,7 +20,9 @@ from coframe.wire.rtps.user_data import endpoint_user_data
 from coframe.wire.vendors import HEADER_PARTITIONS
 from coframe_fastdds import _config as config
 from coframe_fastdds import _fastdds as native
+from coframe_fastdds import _security as security
 from coframe_fastdds._graph import FastDdsGraph
+from coframe_fastdds._ignored import IgnoredMessages
 from coframe_fastdds._services import (
     PLAIN_LATENCY_BUDGET,
     ReplyReader,
@@ -47,6 +50,8 @@ if TYPE_CHECKING:
 
 EndpointT = TypeVar("EndpointT")
 
+_logger = logging.getLogger("coframe.wire")
+
 _DESCRIPTORS: Final = 32
 _KEEP_ALL: Final = 5000  # messages, the default of Fast DDS
 
@@ -63,7 +68,8 @@ class FastDdsSession:
     """
 
     def __init__(self, domain: int, changed: _core.Event) -> None:
-        self.native = _join(domain, config.read(), changed)
+        settings = config.read()
+        self.native = _join(domain, settings, changed)
         self._announcer = NodeAnnouncer(
             self.native.guid,
             native.Writer(self.native, TOPIC, TYPE, native_qos(GRAPH_WRITER), endpoint_user_data(ROS_TYPE, ADAPTS)),
@@ -71,9 +77,10 @@ class FastDdsSession:
         info_reader = native.Reader(
             self.native, TOPIC, TYPE, native_qos(GRAPH_READER), endpoint_user_data(ROS_TYPE), changed
         )
-        self.graph = FastDdsGraph(self.native, info_reader)
+        self.graph = FastDdsGraph(self.native, info_reader, has_server=bool(settings.server))
         self._services = Services()
         self._nodes: list[GraphNode] = []
+        self._ignored = IgnoredMessages(_logger.warning)
 
     def writer(
         self,
@@ -137,6 +144,7 @@ class FastDdsSession:
     def repeat_announcement(self) -> int:
         """Publish the nodes again if that failed. Fast DDS itself repeats the announcement of the participant."""
         self._announcer.repeat()
+        self._ignored.add(self.native.take_ignored())
         return SECOND
 
     def adapt(self) -> str:
@@ -223,13 +231,19 @@ def _join(domain: int, settings: config.Config, changed: _core.Event) -> native.
             user_data=f"enclave={settings.enclave};",
             discovery_range="SYSTEM_DEFAULT" if settings.server else settings.range,
             peers=config.addresses(settings.peers),
-            has_profiles=bool(settings.profiles),
+            profiles=settings.profiles,
             qos_from_profiles=settings.qos_from_profiles,
             asynchronous=settings.asynchronous,
             properties=list(settings.properties),
             changed=changed,
         )
     except _core.EndpointError as error:
+        if settings.properties:
+            raise WireError(
+                f"Joining domain {domain} with the enclave {settings.enclave} failed: {error}.",
+                hint="Check its files: whether they belong together, are still valid, and allow this domain. They are "
+                f"in {security.folder_of(settings.properties)}.",
+            ) from error
         raise WireError(
             f"Joining domain {domain} failed: {error}.",
             hint="Fast DDS wrote the reason to stderr. Check the variables that configure it.",
