@@ -10,6 +10,7 @@ import warnings
 import numpy as np
 import pytest
 import recordings
+from click.testing import CliRunner
 from mcap.writer import Writer as McapWriter
 from recordings import SECOND, START
 from scipy.spatial.transform import Rotation, Slerp
@@ -17,6 +18,7 @@ from scipy.spatial.transform import Rotation, Slerp
 import coframe
 from coframe.bags import Column, Table, TableQuery
 from coframe.bags.tables._matching import pick
+from coframe.cli.app import app
 from coframe.messages import serialize
 from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Odometry, Path
@@ -24,6 +26,8 @@ from sensor_msgs.msg import Image, Imu, JointState, LaserScan
 from std_msgs.msg import Float64, String
 
 pa = pytest.importorskip("pyarrow")
+pytest.importorskip("pyarrow.parquet")
+pytest.importorskip("pyarrow.feather")
 pd = pytest.importorskip("pandas")
 MS = SECOND // 1000
 
@@ -451,6 +455,89 @@ def test_missing_packages_are_named(bag, monkeypatch):
             with pytest.raises(coframe.RecordingError, match=f"needs the package {package}") as caught:
                 convert()
         assert caught.value.hint.startswith("pip install ")
+
+
+# Files and the command.
+
+
+def test_files_contain_the_values_of_the_table(bag, tmp_path):
+    columns = ["/odom", ("odom", "camera"), "/image.data", "/scan.ranges@previous:60ms", "/path.poses"]
+    table = bag.table(columns, at="/image", max_gap="100ms")
+    frame = table.to_pandas()
+    table.save(tmp_path / "a.parquet")
+    assert pa.parquet.read_table(tmp_path / "a.parquet").equals(table.to_arrow(flat=True))
+    table.save(tmp_path / "a.feather")
+    assert pa.feather.read_table(tmp_path / "a.feather").equals(table.to_arrow(flat=True))
+    table.save(tmp_path / "a.csv")
+    again = pd.read_csv(tmp_path / "a.csv")
+    assert again.columns.tolist() == frame.columns.tolist()
+    for name in (
+        "odom:camera.x",
+        "/odom.pose.covariance[0]",
+        "odom:camera.valid",
+        "/odom.age_ns",
+        "/odom.child_frame_id",
+    ):
+        pd.testing.assert_series_equal(again[name], frame[name], check_dtype=False)
+    assert json.loads(again["/scan.ranges"][1]) == [2.0] * 3
+    assert again["/image.data"][0] == 102  # the hexadecimal digits 0102
+    numbers = bag.table(["/odom", ("odom", "camera")], at="/image")
+    numbers.save(tmp_path / "a.npz")
+    with np.load(tmp_path / "a.npz") as data:
+        assert set(data) == {"stamp_ns", *numbers.names}
+        np.testing.assert_array_equal(data["odom:camera.x"], numbers["odom:camera.x"])
+        assert data["/odom.child_frame_id"].tolist() == ["base"] * 10
+    with pytest.raises(coframe.RecordingError, match=r"npz cannot store /image\.data"):
+        table.save(tmp_path / "b.npz")
+    with pytest.raises(coframe.RecordingError, match=r"unknown suffix of .*a\.parket") as caught:
+        table.save(tmp_path / "a.parket")
+    assert "'.parquet'" in caught.value.hint
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["a.csv", "a.feather", "a.npz", "a.parquet"]
+
+
+def test_the_command_writes_the_same_table(bag, tmp_path, monkeypatch):
+    monkeypatch.setattr("coframe.bags.tables.query.MAX_BATCH_ROWS", 4)
+    columns = ["speed=/odom.twist@interpolate", "odom:camera"]
+    options = ["--at", "/image", "--max-gap", "100ms", "--on-gap", "omit", "--covariance"]
+    words = ["table", str(bag.path), *columns, *options, "-o", str(tmp_path / "a.parquet")]
+    result = CliRunner().invoke(app, words)
+    assert result.exit_code == 0, result.output
+    assert result.stderr == "coframe: 3 rows without a value omitted\n"
+    assert "a.parquet: 7 rows" in result.stdout
+    expected = bag.table(columns, at="/image", max_gap="100ms", on_gap="omit", covariance=True)
+    assert pa.parquet.read_table(tmp_path / "a.parquet").equals(expected.to_arrow(flat=True))
+    printed = CliRunner().invoke(app, ["table", str(bag.path), "odom:camera.yaw", "--rate", "10", "--no-validity"])
+    assert printed.stdout.splitlines()[0] == "stamp_ns,odom:camera.yaw"
+    assert len(printed.stdout.splitlines()) == 12
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "text"),
+    [
+        (["/odm"], 1, "Did you mean '/odom'?"),
+        (["/odom.pse"], 1, "Did you mean 'pose'?"),
+        (["/odom@nerest"], 2, "Did you mean 'nearest'?"),
+        (["odom:camra", "--rate", "1"], 1, "Did you mean 'camera'?"),
+        (["/odom", "-o", "a.parket"], 2, "unknown suffix"),
+        (["/odom", "-f", "parquet"], 2, "cannot be printed"),
+        (["/silent"], 1, "/silent has no messages"),
+        (["/odom", "--start", "soon"], 2, "--start: 'soon' is not a point in time"),
+        (["odom:camera", "--at", "/image", "--max-gap", "100ms", "--on-gap", "raise"], 1, "has no value at"),
+    ],
+)
+def test_the_command_ends_with_a_sentence(bag, words, code, text):
+    result = CliRunner().invoke(app, ["table", str(bag.path), *words])
+    assert (result.exit_code, text in result.stderr) == (code, True), result.stderr
+    assert "Traceback" not in result.stderr
+
+
+def test_nothing_is_left_of_a_table_that_fails(bag, tmp_path):
+    target = tmp_path / "a.csv"
+    target.write_text("before")
+    result = CliRunner().invoke(app, ["table", str(bag.path), "/scan@match:1ms", "--at", "/image", "-o", str(target)])
+    assert result.exit_code == 1
+    assert target.read_text() == "before"
+    assert list(tmp_path.iterdir()) == [target]
 
 
 # Requests that cannot be answered.

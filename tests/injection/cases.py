@@ -133,6 +133,12 @@ RECORDED = {
     "cloud": _cases("cloud", ["{bag}", "/points", "--frame", NEWLINE, "-o", "{output}.ply"]),
     "compare": _cases("compare", "{bag} {bag}", ["{bag}", MISSING]),
     "plot": _cases("plot", ["{bag}", f"/tf/{NEWLINE}.x", "-o", "{output}.svg"], ["{bag}", "/log.msg"]),
+    "table": _cases(
+        "table",
+        "{bag} /tf --at /tf",
+        ["{bag}", f"map:{NEWLINE}", "--rate", "1", "-o", "{output}.csv"],
+        ["{bag}", f"map:{MISSING}", "--rate", "1"],
+    ),
     "trajectory": _cases(
         "trajectory", *(["{bag}", "map", name, "-o", "{output}.tum"] for name in (ESCAPE, NEWLINE, MISSING))
     ),

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from coframe.bags.editing import EditReport, Recipe, edit
     from coframe.bags.recording import RecordedMessage, RecordedTopic, Recording, open_bag
     from coframe.bags.summary import EdgeSummary, SensorSummary, Summary, TreeSummary, summarize
-    from coframe.bags.tables import Column, Table, TableQuery
+    from coframe.bags.tables import Column, Table, TableQuery, write_table
     from coframe.bags.time_points import parse_time_point
     from coframe.errors import RecordingError
     from coframe.trajectories import FORMATS, format_of, write_trajectory
@@ -61,6 +61,7 @@ __all__ = [
     "repair",
     "summarize",
     "write_clouds",
+    "write_table",
     "write_trajectory",
 ]
 
@@ -103,6 +104,7 @@ _MODULES = {
     "repair": "coframe.bags._bag_repair",
     "summarize": "coframe.bags.summary",
     "write_clouds": "coframe.bags._cloud_files",
+    "write_table": "coframe.bags.tables",
     "write_trajectory": "coframe.trajectories",
 }
 

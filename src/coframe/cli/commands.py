@@ -124,6 +124,13 @@ COMMANDS: dict[str, CommandRow] = {
     "trajectory": CommandRow(
         "Write the trajectory of a frame from a recording.", "trajectory", ("bags", "parquet"), graph=False, ros=False
     ),
+    "table": CommandRow(
+        "Write fields and poses at the stamps of a topic as a table.",
+        "table",
+        ("bags", "parquet"),
+        graph=False,
+        ros=False,
+    ),
     "compare": CommandRow(
         "Compare two trajectories: absolute and relative pose errors.",
         "compare",

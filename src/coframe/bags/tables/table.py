@@ -17,6 +17,7 @@ from coframe.bags.tables._leaves import Leaf
 from coframe.errors import RecordingError
 
 if TYPE_CHECKING:
+    import os
     from collections.abc import Iterator
 
     from numpy.typing import NDArray
@@ -205,6 +206,20 @@ class Table:
                 array = np.where(value.known if array.ndim == 1 else value.known[:, None], array, np.nan)
             variables[name] = (("stamp",) if array.ndim == 1 else ("stamp", f"{name}.axis"), array)
         return _module("xarray").Dataset(variables, coords={"stamp": self.stamps.astype("datetime64[ns]")})
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the table to a file with a column for each value.
+
+        Args:
+            path: Its suffix selects the format: ``.parquet``, ``.arrow`` or ``.feather``, ``.csv``, ``.npz``.
+
+        Raises:
+            RecordingError: The format is unknown or cannot store the columns, or pyarrow is not installed.
+            OSError: The file cannot be written.
+        """
+        from coframe.bags.tables.files import write_table  # noqa: PLC0415 - it imports this module
+
+        write_table(self, path)
 
     def expanded(self) -> Iterator[tuple[str, Leaf, NDArray[Any], NDArray[np.bool_]]]:
         """Yield name, description, array and known rows of each value; short arrays as one value for each element."""
