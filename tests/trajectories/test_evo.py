@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """The figures of a comparison equal those of evo."""
 
+import copy
+
 import numpy as np
 import pytest
 
 import coframe
 from coframe import quaternion
-from coframe.trajectories import Delta, compare_trajectories
+from coframe.trajectories import Delta, associate, compare_trajectories
 
 metrics = pytest.importorskip("evo.core.metrics", reason="evo (pip install --group oracle) is not installed")
 from evo.core import sync, trajectory  # noqa: E402
+from evo.main_ape import ape  # noqa: E402
+from evo.main_rpe import rpe  # noqa: E402
 
 pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore")]
 
@@ -95,3 +99,53 @@ def test_evo_reads_the_files_that_are_written(tmp_path, pair):
         path = tmp_path / kind
         coframe.trajectories.write_trajectory(reference, path, kind)
         np.testing.assert_allclose(read(path).poses_se3, reference.matrix, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"t_offset": "1ms"},
+        {"t_offset": "-12ms", "max_difference": "20ms"},
+        {"align": "se3", "n_to_align": 0.7},
+        {"align": "sim3", "n_to_align": 0.7, "project": "xy"},
+        {"align": "scale"},
+        {"align_origin": True},
+        {"align": "scale", "align_origin": True, "project": "yz"},
+        {"align": "se3", "project": "xz"},
+    ],
+    ids=str,
+)
+def test_options_equal_those_of_evo(pair, options):
+    reference, estimate = pair
+    if "n_to_align" in options:  # a share of the pairs
+        options = options | {"n_to_align": int(options["n_to_align"] * len(associate(reference, estimate)[0]))}
+    found = compare_trajectories(reference, estimate, **options)
+    start = int(reference.stamps[0])
+    offset = options.get("t_offset", "0ms")
+    theirs = sync.associate_trajectories(
+        *(evo_trajectory(poses, start) for poses in pair),
+        max_diff=float(options.get("max_difference", "10ms").removesuffix("ms")) / 1e3,
+        offset_2=float(offset.removesuffix("ms")) / 1e3,
+    )
+    assert theirs[0].num_poses == len(found.reference)
+    kind = options.get("align", "none")
+    project = options.get("project")
+    for metric, errors in ((ape, found.ape), (rpe, found.rpe)):
+        for relation, statistics in (
+            (metrics.PoseRelation.translation_part, errors.translation_statistics),
+            (metrics.PoseRelation.rotation_angle_rad, errors.rotation_statistics),
+        ):
+            delta = {} if metric is ape else {"delta": 1, "delta_unit": metrics.Unit.frames}
+            result = metric(
+                *copy.deepcopy(theirs),
+                relation,
+                align=kind in {"se3", "sim3"},
+                correct_scale=kind in {"sim3", "scale"},
+                n_to_align=options.get("n_to_align", -1),
+                align_origin=options.get("align_origin", False),
+                project_to_plane=None if project is None else trajectory.Plane(project),
+                **delta,
+            )
+            for name, value in result.stats.items():
+                # Angles near 0 are exact to the root of the resolution in evo.
+                assert getattr(statistics, name) == pytest.approx(value, rel=1e-7, abs=2e-7), name

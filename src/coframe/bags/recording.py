@@ -24,6 +24,9 @@ from coframe.bags._table import edge_table
 from coframe.bags._time_window import ALL_TIME, TimeWindow
 from coframe.bags.namespaces import TransformChoice, main_span
 from coframe.bags.tables import TableQuery
+from coframe.bags.tables.columns import FieldSource, PathSource, column
+from coframe.bags.tables.topic_poses import topic_poses
+from coframe.bags.time_points import parse_time_point
 from coframe.errors import DecodeError, RecordingError
 from coframe.messages.header_peek import HEADER_BYTES
 
@@ -43,6 +46,7 @@ if TYPE_CHECKING:
     from coframe.buffer.gaps import OnGap
     from coframe.messages.slices import Slices
     from coframe.time import DurationLike, StampLike
+    from coframe.transform.transform import Transform
     from coframe.viewer import Viewer
 
 __all__ = ["RecordedMessage", "RecordedTopic", "Recording", "open_bag"]
@@ -515,6 +519,51 @@ class Recording:
         for sentence in sentences:
             warnings.warn(sentence, CoframeWarning, stacklevel=2)
         return table
+
+    def trajectory(
+        self,
+        source: str | tuple[str, str],
+        *,
+        start: StampLike | str | None = None,
+        stop: StampLike | str | None = None,
+    ) -> Transform:
+        """Return the poses in the messages on a topic, or those of a frame, as a batch with stamps.
+
+        Args:
+            source: A topic with Odometry, PoseStamped, PoseWithCovarianceStamped, TransformStamped or other messages
+                that contain a pose (``"/odom"``), or a field (``"/state.pose"``); of Path, the last message counts. Or
+                two frames, ``("map", "base_link")`` or ``"map:base_link"``, as in :meth:`coframe.Buffer.trajectory`.
+            start: The first stamp; nanoseconds, or a string for :func:`coframe.bags.parse_time_point`.
+            stop: The last stamp.
+
+        Returns:
+            A batch of shape (N,), sorted by stamp, with its covariances if the messages have some.
+
+        Raises:
+            RecordingError: The topic does not exist, or its messages contain no poses, or there are none between the
+                start and the stop.
+            TransformException: A frame does not exist, or the frames are not connected.
+        """
+        parsed = column(source).parsed
+        if isinstance(parsed, PathSource):
+            raise RecordingError(f"{source} is a file", hint="coframe.trajectories.read_trajectory reads files.")
+        if isinstance(parsed, FieldSource):
+            sentences: list[str] = []
+            poses = topic_poses(self, parsed, sentences.append)
+            for sentence in sentences:
+                warnings.warn(sentence, CoframeWarning, stacklevel=2)
+        else:
+            poses = self.buffer.trajectory(parsed.target, parsed.source)
+        stamps = np.atleast_1d(np.asarray(poses.stamps, dtype=np.int64))
+        inside = np.ones(len(stamps), dtype=bool)
+        for when, keep in ((start, np.greater_equal), (stop, np.less_equal)):
+            if when is not None:
+                inside &= keep(
+                    stamps, parse_time_point(when, self.span) if isinstance(when, str) else time.stamp_ns(when)
+                )
+        if not inside.any():
+            raise RecordingError(f"{source} has no poses between start and stop")
+        return poses if inside.all() else poses[inside]
 
     def dataframe(
         self,

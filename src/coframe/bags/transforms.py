@@ -140,8 +140,12 @@ def ingest_for(channel: Channel, renaming: _core.Renaming | None = None) -> Inge
 
 def has_unknown_encoding(channel: Channel) -> bool:
     """Return whether the messages of a channel are transforms in an encoding that cannot be read."""
-    types = {type_ for _, type_ in _DECODINGS}
-    return ingest_for(channel) is None and channel.type.replace("/msg/", "/") in types
+    type_ = channel.type.replace("/msg/", "/")
+    if type_ == _ONE_TRANSFORM and channel.encoding in {"cdr", "ros1"}:
+        return (
+            False  # In ROS, such as from a motion capture system, it is a message on a topic and not part of the tree.
+        )
+    return ingest_for(channel) is None and type_ in {each for _, each in _DECODINGS}
 
 
 def _foxglove_cdr(data: bytes | memoryview) -> Iterator[StampedValues]:
@@ -221,6 +225,7 @@ def _varint(data: Any, position: int) -> tuple[int, int]:
 
 
 # By encoding and type. In CDR, foxglove_msgs/FrameTransforms has the layout of a TFMessage.
+_ONE_TRANSFORM = "geometry_msgs/TransformStamped"
 _DECODINGS: dict[tuple[str, str], Callable[[bytes | memoryview], Iterator[StampedValues]] | str] = {
     ("cdr", TF_MESSAGE.replace("/msg/", "/")): "cdr",
     ("cdr", "foxglove_msgs/FrameTransforms"): "cdr",
@@ -234,6 +239,6 @@ _DECODINGS: dict[tuple[str, str], Callable[[bytes | memoryview], Iterator[Stampe
     ("json", "foxglove/FrameTransforms"): json_many,
     ("json", "foxglove_msgs/FrameTransform"): json_one,
     ("json", "foxglove_msgs/FrameTransforms"): json_many,
-    ("json", "geometry_msgs/TransformStamped"): json_one,
+    ("json", _ONE_TRANSFORM): json_one,
     **{("json", name): json_many for name in TF_MESSAGES_OF_ROS1},
 }

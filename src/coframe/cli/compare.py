@@ -7,35 +7,35 @@ import csv
 import io
 import json
 import math
-from pathlib import Path, PurePath
-from typing import TYPE_CHECKING, Literal
-from urllib.parse import urlsplit
+from typing import TYPE_CHECKING, Any
 
 import click
 import numpy as np
 
 from coframe._files.complete_files import write_complete
-from coframe._output.formatting import count
-from coframe._sources.sources import as_source
-from coframe._sources.urls import is_url
-from coframe.bags.formats import has_known_suffix
+from coframe._output.formatting import count, duration
 from coframe.bags.namespaces import TransformChoice
 from coframe.cli.declaration import PATH, Command, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
+    Duration,
     NonNegativeDuration,
     namespace_option,
     recorded_listener_options,
 )
-from coframe.cli.output import fail, fail_to_write, printable
+from coframe.cli.output import fail, fail_to_write, printable, warn
 from coframe.cli.plot import check_figure_package, save_figure
-from coframe.cli.recordings import open_recording
+from coframe.cli.trajectory_arguments import TRAJECTORY_FORMS, read_argument
 from coframe.plotting import FIGURE_FORMATS, Figure, Series
-from coframe.trajectories import compare_trajectories, parse_delta, read_trajectory
+from coframe.time import MILLISECOND
+from coframe.trajectories import ALIGNMENTS, PLANES, compare_trajectories, parse_delta
+from coframe.transform.transform import Transform
 
 if TYPE_CHECKING:
+    from collections.abc import Container
+    from pathlib import Path
+
     from coframe.trajectories import Comparison, PoseErrors, Statistics
-    from coframe.transform.transform import Transform
 
 __all__ = ["compare"]
 
@@ -43,26 +43,51 @@ _SUFFIXES = tuple(f".{kind}" for kind in (*FIGURE_FORMATS, "json", "csv"))
 
 
 @click.command(cls=Command)
+@argument("ref", metavar="REF", help=f"Reference: {TRAJECTORY_FORMS}.")
 @argument(
-    "ref",
-    metavar="REF",
-    help="Reference: a TUM, KITTI, EuRoC, CSV or npz file, or BAG:TARGET:SOURCE for the poses of the frame "
-    "SOURCE relative to TARGET in a recording.",
+    "estimates", metavar="EST...", nargs=-1, required=True, help="One or more estimates, in the same format as REF."
 )
-@argument("est", metavar="EST", help="Estimate, in the same format as REF.")
 @click.option(
     "--align",
     metavar="KIND",
-    type=click.Choice(["none", "se3", "sim3"]),
+    type=click.Choice(ALIGNMENTS),
     default="none",
-    help="Align the estimate first: none, se3 (rotation and translation), or sim3 (also scale).",
+    help="Align the estimate first: none, se3 (rotation and translation), sim3 (also scale), or scale.",
+)
+@click.option("--align-origin", is_flag=True, help="Move the estimate so that the first poses are equal.")
+@click.option(
+    "--n-to-align",
+    metavar="N",
+    type=click.IntRange(min=1),
+    help="Align by the first N pairs of poses only. [default: all]",
 )
 @click.option(
     "--max-difference",
+    "--t-max-diff",
     metavar="DURATION",
     type=NonNegativeDuration,
     default="10ms",
     help="Maximum difference between the stamps of two compared poses.",
+)
+@click.option(
+    "--t-offset",
+    metavar="DURATION",
+    type=Duration,
+    default="0s",
+    help="Add this to the stamps of the estimate, e.g. -35ms.",
+)
+@click.option(
+    "--project",
+    metavar="PLANE",
+    type=click.Choice(tuple(PLANES)),
+    help="Compare the projections to a plane: xy, xz or yz.",
+)
+@click.option(
+    "--body-offset",
+    metavar="X Y Z ROLL PITCH YAW",
+    type=float,
+    nargs=6,
+    help="Pose of the reference's frame relative to the estimate's frame on the same body, in meters and degrees.",
 )
 @click.option(
     "--delta",
@@ -83,9 +108,14 @@ _SUFFIXES = tuple(f".{kind}" for kind in (*FIGURE_FORMATS, "json", "csv"))
 @recorded_listener_options
 def compare(
     ref: str,
-    est: str,
-    align: Literal["none", "se3", "sim3"],
+    estimates: tuple[str, ...],
+    align: str,
+    align_origin: bool,
+    n_to_align: int | None,
     max_difference: NonNegativeDuration,
+    t_offset: Duration,
+    project: str | None,
+    body_offset: tuple[float, ...] | None,
     delta: str,
     output: tuple[Path, ...],
     as_json: bool,
@@ -95,55 +125,90 @@ def compare(
     prefix: str,
     keep: str,
 ) -> None:
-    """Compare the trajectory EST with the trajectory REF: absolute (APE) and relative (RPE) pose errors.
+    """Compare the trajectories EST with the trajectory REF: absolute (APE) and relative (RPE) pose errors.
 
     Poses are paired by nearest stamp. The results equal those of evo.
 
     Example: coframe compare truth.tum run.mcap:map:base_link --align se3
     """
     files = [_checked_output(path) for path in output]
+    if align_origin and align in {"se3", "sim3"}:
+        fail(f"--align {align} and --align-origin are mutually exclusive: give one of them", code=2)
     try:
         distance = parse_delta(delta)
     except ValueError as error:
         fail(f"--delta: {error}", code=2)
     with run_to_completion():
         choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
-        reference, estimate = _read(ref, choice), _read(est, choice)
-        result = compare_trajectories(reference, estimate, align=align, max_difference=max_difference, delta=distance)
-        for path in files:
-            _write(path, result, f"{est} compared with {ref}")
-        if as_json:
-            print(json.dumps(result.as_dict()))
-        else:
-            print(_table(result))
-
-
-def _read(text: str, choice: TransformChoice) -> Transform:
-    """Return the trajectory given by an argument."""
-    path, _, frames = text.partition(":") if not is_url(text) and Path(text).exists() else _split(text)
-    if not frames:
-        file = as_source(path)
-        if has_known_suffix(PurePath(file.name)) or (isinstance(file, Path) and file.is_dir()):
-            fail(
-                f"{path} is a recording: give two of its frames",
-                f"Write BAG:TARGET:SOURCE, for example {path}:map:base_link.",
-                code=2,
+        reference = read_argument(ref, choice)
+        results: dict[str, Comparison] = {}
+        for estimate in estimates:
+            result = compare_trajectories(
+                reference,
+                read_argument(estimate, choice),
+                align=align,
+                max_difference=max_difference,
+                delta=distance,
+                t_offset=t_offset,
+                n_to_align=n_to_align,
+                align_origin=align_origin,
+                project=project,
+                body_offset=_offset(body_offset),
             )
-        return read_trajectory(file, report=lambda sentence: click.echo(f"coframe: {sentence}", err=True))
-    target, _, source = frames.partition(":")
-    with open_recording(path, choice) as recording:
-        return recording.buffer.trajectory(target, source)
+            results[_unused(estimate, results)] = result
+        for path in files:
+            _write(path, results, ref)
+        if as_json:
+            print(json.dumps(_as_dict(results)))
+        elif len(results) == 1:
+            print(_table(next(iter(results.values()))))
+        else:
+            print(_rows(results))
+        for name, result in results.items():
+            _warn_of_constant_differences(name if len(results) > 1 else "", result)
 
 
-def _split(text: str) -> tuple[str, str, str]:
-    """Split BAG:TARGET:SOURCE at the last two colons, because a path may contain colons."""
-    bag, *frames = text.rsplit(":", 2)
-    is_part_of_url = is_url(text) and not (is_url(bag) and urlsplit(bag).path)  # http://host:8000/run.tum
-    if len(frames) == 2 and all((bag, *frames)) and not is_part_of_url:
-        return bag, ":", ":".join(frames)
-    if frames and not is_url(text) and Path(bag).exists():
-        fail(f"{text!r} has one frame; a trajectory needs two", "Write BAG:TARGET:SOURCE.", code=2)
-    return text, "", ""
+def _offset(numbers: tuple[float, ...] | None) -> Transform | None:
+    if not numbers:
+        return None
+    if not all(map(math.isfinite, numbers)):
+        fail(f"--body-offset: not finite numbers: {' '.join(map(str, numbers))}", code=2)
+    return Transform.from_rpy(numbers[:3], np.radians(numbers[3:]))
+
+
+def _unused(name: str, names: Container[str]) -> str:
+    """Return a name with a number behind it if it is already used."""
+    return name if name not in names else next(n for i in range(2, 1000) if (n := f"{name} ({i})") not in names)
+
+
+def _as_dict(results: dict[str, Comparison]) -> dict[str, Any]:
+    if len(results) == 1:
+        return next(iter(results.values())).as_dict()
+    return {"estimates": [{"name": name, **result.as_dict()} for name, result in results.items()]}
+
+
+def _warn_of_constant_differences(name: str, result: Comparison) -> None:
+    """Print which constant differences explain most of the errors, and the options that remove them."""
+    about = f"{name}: " if name else ""
+    if (shift := result.time_shift) is not None:
+        before, after = shift.translation_rmse
+        warn(
+            f"{about}a time offset of {duration(shift.offset)} explains most of the error: with it, the translation "
+            f"error is {_short(after)} m instead of {_short(before)} m (rmse between interpolated poses). "
+            f"To remove it: --t-offset {shift.offset / MILLISECOND:.3f}ms"
+        )
+    if (offset := result.body_offset) is not None:
+        x, y, z = offset.transform.translation.tolist()
+        angles = np.degrees(offset.transform.rpy).tolist()
+        turned = math.degrees(float(np.linalg.norm(offset.transform.as_rotvec())))
+        numbers = " ".join(f"{round(number, 6) + 0.0:.8g}" for number in (x, y, z, *angles))
+        (t_before, t_after), (r_before, r_after) = offset.translation_rmse, offset.rotation_rmse
+        warn(
+            f"{about}the frames of both trajectories differ by a constant pose of {turned:.4g} deg and "
+            f"{math.hypot(x, y, z):.4g} m: with it, the rotation error is {_short(math.degrees(r_after))} deg instead "
+            f"of {_short(math.degrees(r_before))} deg, and the translation error {_short(t_after)} m instead of "
+            f"{_short(t_before)} m (rmse). To remove it: --body-offset {numbers}"
+        )
 
 
 def _checked_output(path: Path) -> Path:
@@ -183,43 +248,78 @@ def _in_degrees(errors: PoseErrors) -> Statistics:
     return statistics._replace(**{**values, "sse": math.degrees(values["sse"])})
 
 
-def _write(path: Path, result: Comparison, title: str) -> None:
+def _short(number: float) -> str:
+    return f"{round(number, 6) + 0.0:.4g}"
+
+
+def _rows(results: dict[str, Comparison]) -> str:
+    """Return a table with a row for each estimate."""
+    width = max(len("estimate"), *(len(printable(name)) for name in results))
+    delta = next(iter(results.values())).delta
+    groups = ("APE [m]", "APE [deg]", "RPE [m]", "RPE [deg]")
+    lines = [
+        f"RPE over {delta}",
+        "",
+        f"{'':<{width}}{'':>8}{'':>9}" + "".join(f"{group:>20}" for group in groups),
+        f"{'estimate':<{width}}{'pairs':>8}{'scale':>9}" + f"{'rmse':>10}{'max':>10}" * len(groups),
+    ]
+    for name, result in results.items():
+        errors = (
+            result.ape.translation_statistics,
+            _in_degrees(result.ape),
+            result.rpe.translation_statistics,
+            _in_degrees(result.rpe),
+        )
+        scale = 1.0 if result.alignment is None else result.alignment.scale
+        numbers = "".join(f"{each.rmse:>10.4g}{each.max:>10.4g}" for each in errors)
+        lines.append(f"{printable(name):<{width}}{len(result.reference):>8}{scale:>9.5g}{numbers}")
+    return "\n".join(lines)
+
+
+def _write(path: Path, results: dict[str, Comparison], reference: str) -> None:
     kind = path.suffix.lower().removeprefix(".")
     if kind in FIGURE_FORMATS:
-        save_figure(_figure(result, title), path)
+        save_figure(_figure(results, reference), path)
         return
-    text = json.dumps(result.as_dict(), indent=2) + "\n" if kind == "json" else _csv(result)
+    text = json.dumps(_as_dict(results), indent=2) + "\n" if kind == "json" else _csv(results)
     try:
         write_complete(path, text.encode())
     except OSError as error:
         fail_to_write(path, error)
 
 
-def _csv(result: Comparison) -> str:
+def _csv(results: dict[str, Comparison]) -> str:
     """Return a row for each pair of poses; relative errors are in the row of the later pose, in meters and radians."""
-    relative = {
-        row: values
-        for row, *values in zip(
-            result.rpe.index.tolist(), result.rpe.translation.tolist(), result.rpe.rotation.tolist(), strict=True
-        )
-    }
-    stamps = result.reference.stamps
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["stamp_ns", "ape_translation", "ape_rotation", "rpe_translation", "rpe_rotation"])
-    for row, errors in enumerate(zip(result.ape.translation.tolist(), result.ape.rotation.tolist(), strict=True)):
-        stamp = "" if stamps is None else int(stamps[row])
-        writer.writerow([stamp, *errors, *relative.get(row, ("", ""))])
+    several = ["estimate"] if len(results) > 1 else []
+    writer.writerow([*several, "stamp_ns", "ape_translation", "ape_rotation", "rpe_translation", "rpe_rotation"])
+    for name, result in results.items():
+        relative = {
+            row: values
+            for row, *values in zip(
+                result.rpe.index.tolist(), result.rpe.translation.tolist(), result.rpe.rotation.tolist(), strict=True
+            )
+        }
+        stamps = result.reference.stamps
+        for row, errors in enumerate(zip(result.ape.translation.tolist(), result.ape.rotation.tolist(), strict=True)):
+            stamp = "" if stamps is None else int(stamps[row])
+            writer.writerow([*([name] if several else []), stamp, *errors, *relative.get(row, ("", ""))])
     return text.getvalue()
 
 
-def _figure(result: Comparison, title: str) -> Figure:
-    stamps = result.reference.stamps
-    numbers = np.arange(len(result.reference)) if stamps is None else stamps
+def _figure(results: dict[str, Comparison], reference: str) -> Figure:
+    """Return the errors of all estimates over time."""
     series = []
-    for name, errors in (("APE", result.ape), ("RPE", result.rpe)):
-        label = name if name == "APE" else f"RPE over {result.delta}"
-        at = np.asarray(numbers[errors.index], dtype=np.int64)
-        series.append(Series(f"{label}, translation", at, errors.translation, f"{name} [m]"))
-        series.append(Series(f"{label}, rotation", at, np.degrees(errors.rotation), f"{name} [deg]"))
-    return Figure(printable(title), series, has_time=stamps is not None)
+    has_time = all(result.reference.stamps is not None for result in results.values())
+    for name, result in results.items():
+        stamps = result.reference.stamps if has_time else None
+        numbers = np.arange(len(result.reference)) if stamps is None else stamps
+        of = f" of {printable(name)}" if len(results) > 1 else ""
+        for kind, errors in (("APE", result.ape), ("RPE", result.rpe)):
+            label = kind if kind == "APE" else f"RPE over {result.delta}"
+            at = np.asarray(numbers[errors.index], dtype=np.int64)
+            series.append(Series(f"{label}, translation{of}", at, errors.translation, f"{kind} [m]"))
+            series.append(Series(f"{label}, rotation{of}", at, np.degrees(errors.rotation), f"{kind} [deg]"))
+    title = f"{', '.join(results)} compared with {reference}"
+    return Figure(printable(title), series, has_time=has_time)

@@ -8,19 +8,28 @@ from typing import TYPE_CHECKING
 import click
 
 from coframe._output.formatting import count
+from coframe.bags.formats import file_kinds
 from coframe.bags.namespaces import TransformChoice
-from coframe.cli.declaration import PATH, Command, argument
+from coframe.cli.completion import complete_recordings
+from coframe.cli.declaration import PATH, RECORDING, Command, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
-    bag_argument,
     namespace_option,
     recorded_listener_options,
 )
 from coframe.cli.output import fail, fail_to_write, printable, warn
 from coframe.cli.progress import task_progress
 from coframe.cli.recordings import open_recording, parse_time, title_of
+from coframe.cli.trajectory_arguments import is_trajectory_file, read_file
 from coframe.errors import PlotError
-from coframe.plotting import FIGURE_FORMATS, Figure, evaluate, figure_format, parse_expression
+from coframe.plotting import (
+    FIGURE_FORMATS,
+    Figure,
+    evaluate,
+    figure_format,
+    parse_expression,
+    trajectory_curves,
+)
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -34,15 +43,22 @@ _SUFFIXES = ", ".join(f".{kind}" for kind in FIGURE_FORMATS)
 
 
 @click.command(cls=Command)
-@bag_argument
+@argument(
+    "bag",
+    metavar="BAG",
+    type=RECORDING,
+    shell_complete=complete_recordings,
+    help=lambda: f"Recording: a {file_kinds()}, a rosbag2 folder, or its URL; or a trajectory file, such as run.tum.",
+)
 @argument(
     "expressions",
     metavar="EXPR...",
     nargs=-1,
     required=True,
     help="What to plot. Pose of base_link relative to odom: odom:base_link.x, also .y .z .roll .pitch .yaw "
-    ".distance. Message field: /odom.twist.twist.linear.x, /scan.ranges[0]. Rate or delay of a topic or edge: "
-    "/tf.rate, odom:base_link.delay. 'odom->base_link.x' also works, but needs quotes.",
+    ".distance; the same of poses on a topic: /odom.yaw. Message field: /odom.twist.twist.linear.x, /scan.ranges[0]. "
+    "Rate or delay of a topic or edge: /tf.rate, odom:base_link.delay. 'odom->base_link.x' also works, but needs "
+    "quotes. Of a trajectory file: x, y, z, roll, pitch, yaw, distance.",
 )
 @click.option(
     "--output",
@@ -75,8 +91,9 @@ def plot(
 
     Example: coframe plot run.mcap map:base_link.x /scan.rate -o run.html
     """
+    is_file = is_trajectory_file(bag)
     try:
-        parsed = [parse_expression(text) for text in expressions]
+        parsed = [] if is_file else [parse_expression(text) for text in expressions]
         for path in output:
             figure_format(path)
     except PlotError as error:
@@ -84,6 +101,9 @@ def plot(
     with run_to_completion():
         for path in output:
             check_figure_package(path)
+        if is_file:
+            _save(trajectory_curves(expressions, read_file(bag)), output, title or bag.name)
+            return
         with open_recording(bag, TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)) as recording:
             first = None if start is None else parse_time("--start", start, recording)
             last = None if stop is None else parse_time("--stop", stop, recording)
@@ -92,10 +112,14 @@ def plot(
         for curve in curves:
             if curve.skipped:
                 warn(f"{curve.label}: {count(curve.skipped, 'message')} without a value")
-        figure = Figure(printable(title or title_of(bag)), curves)
-        for path in output:
-            save_figure(figure, path)
-            print(f"{path}: {_summary(curves)}")
+        _save(curves, output, title or title_of(bag))
+
+
+def _save(curves: list[Series], output: tuple[Path, ...], title: str) -> None:
+    figure = Figure(printable(title), curves)
+    for path in output:
+        save_figure(figure, path)
+        print(f"{path}: {_summary(curves)}")
 
 
 def check_figure_package(path: Path) -> None:

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
+    from coframe._sources.sources import Readable
     from coframe.bags import Recording
     from coframe.bags.tables import Method, Table
     from coframe.buffer.gaps import OnGap
@@ -89,7 +90,7 @@ __all__ = ["table"]
 @namespace_option
 @recorded_listener_options
 def table(
-    bag: Path,
+    bag: Readable,
     columns: tuple[str, ...],
     output: Path | None,
     format_: str | None,

@@ -10,7 +10,7 @@ import click
 
 from coframe._output.formatting import count, duration, seconds
 from coframe.bags import TrajectoryQuery
-from coframe.bags.namespaces import TransformChoice
+from coframe.bags.namespaces import ALL_TRANSFORMS, TransformChoice
 from coframe.cli.completion import complete_frames
 from coframe.cli.declaration import PATH, Command, argument
 from coframe.cli.lifecycle import run_to_completion
@@ -43,8 +43,16 @@ __all__ = ["trajectory"]
 
 @click.command(cls=Command)
 @bag_argument
-@argument("target", metavar="TARGET", shell_complete=complete_frames, help="Frame in which the poses are expressed.")
-@argument("source", metavar="SOURCE", shell_complete=complete_frames, help="Frame whose poses are written.")
+@argument(
+    "target",
+    metavar="TARGET",
+    shell_complete=complete_frames,
+    help="Frame in which the poses are expressed; or, without SOURCE, a topic with poses, such as Odometry, "
+    "PoseStamped or Path.",
+)
+@argument(
+    "source", metavar="[SOURCE]", required=False, shell_complete=complete_frames, help="Frame whose poses are written."
+)
 @click.option("--output", "-o", metavar="FILE", type=PATH, help="Output file. [default: standard output]")
 @click.option(
     "--format",
@@ -65,7 +73,7 @@ __all__ = ["trajectory"]
 def trajectory(
     bag: Readable,
     target: str,
-    source: str,
+    source: str | None,
     output: Path | None,
     format_: str | None,
     rate: float | None,
@@ -81,11 +89,17 @@ def trajectory(
     prefix: str,
     keep: str,
 ) -> None:
-    """Write the trajectory of SOURCE relative to TARGET in the recording BAG.
+    """Write the trajectory of SOURCE relative to TARGET, or of the poses on a topic, in the recording BAG.
 
     Example: coframe trajectory run.mcap map base_link -o run.tum
     """
     kind = _format(output, format_, with_columns=validity)
+    if source is None:
+        _check_topic(target, {"--rate": rate, "--stamps-of": stamps_of, "--max-gap": max_gap, "--validity": validity})
+        with run_to_completion(), open_recording(bag, ALL_TRANSFORMS) as recording:
+            _check_times(recording, start, stop)
+            _write_topic(recording.trajectory(target, start=start, stop=stop), output, kind)
+        return
     try:
         query = TrajectoryQuery(
             target, source, rate, stamps_of, start, stop, max_gap=max_gap, on_gap=cast("OnGap", on_gap)
@@ -125,6 +139,27 @@ def trajectory(
                 if missing < len(stamps)
                 else f"{output}: {poses}"
             )
+
+
+def _check_topic(topic: str, options: dict[str, object]) -> None:
+    """End the command if an argument is not a topic, or if an option is only for frames."""
+    if not topic.startswith("/"):
+        fail(f"{topic!r} is one frame; a trajectory needs two, or a topic", "Write BAG TARGET SOURCE.", code=2)
+    for option, value in options.items():
+        if value:
+            fail(f"{option}: the poses on a topic are written as they are", "Give two frames to look up.", code=2)
+
+
+def _write_topic(poses: Transform, output: Path | None, kind: str) -> None:
+    try:
+        write_trajectory(poses, sys.stdout if output is None else output, kind)
+    except OSError as error:
+        if isinstance(error, BrokenPipeError):
+            raise
+        fail_to_write(output, error)
+    if output is not None and poses.stamps is not None:
+        first, last = int(poses.stamps[0]), int(poses.stamps[-1])
+        print(f"{output}: {count(len(poses), 'pose')} from {seconds(first)} to {seconds(last)}")
 
 
 def _print_missing(missing: int, times: int, max_gap: PositiveDuration | None) -> None:

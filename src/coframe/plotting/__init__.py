@@ -3,7 +3,7 @@
 
 from coframe.errors import PlotError
 from coframe.plotting._figure import FIGURE_FORMATS, Figure, Series, figure_format
-from coframe.plotting.evaluation import evaluate
+from coframe.plotting.evaluation import evaluate, trajectory_curves
 from coframe.plotting.expressions import (
     FieldExpression,
     PoseExpression,
@@ -22,4 +22,5 @@ __all__ = [
     "evaluate",
     "figure_format",
     "parse_expression",
+    "trajectory_curves",
 ]

@@ -10,6 +10,8 @@ import numpy as np
 from coframe import _core
 from coframe._output.formatting import did_you_mean
 from coframe.analysis.clocks import clock_of
+from coframe.bags.tables.columns import FieldSource
+from coframe.bags.tables.topic_poses import has_pose, topic_poses
 from coframe.bags.transforms import ingest_for
 from coframe.errors import DecodeError, PlotError
 from coframe.messages.slices import Slices
@@ -23,7 +25,7 @@ from coframe.plotting.expressions import (
 )
 from coframe.plotting.values import NoElementError, axis_title, field_value, rates
 from coframe.time import SECOND
-from coframe.transform.quantities import coordinate
+from coframe.transform.quantities import POSE_QUANTITIES, coordinate
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -33,10 +35,11 @@ if TYPE_CHECKING:
     from coframe.bags import Recording
     from coframe.bags.storage import Channel
     from coframe.buffer import Buffer
+    from coframe.transform.transform import Transform
 
     Stamped = tuple[NDArray[np.int64], NDArray[np.float64]]
 
-__all__ = ["check_edge", "evaluate"]
+__all__ = ["check_edge", "evaluate", "trajectory_curves"]
 
 _BATCH = 5_000  # messages
 _REPORTED = 500  # messages between two reports of the progress
@@ -89,6 +92,32 @@ def evaluate(
     return curves
 
 
+def trajectory_curves(quantities: Iterable[str], poses: Transform) -> list[Series]:
+    """Return curves of a trajectory, such as one that was read from a file.
+
+    Args:
+        quantities: ``x``, ``y``, ``z`` and ``distance`` in meters, ``roll``, ``pitch`` and ``yaw`` in radians.
+        poses: A batch of shape (N,) with stamps.
+
+    Raises:
+        PlotError: A quantity is unknown, or the poses have no stamps.
+    """
+    if poses.stamps is None:
+        raise PlotError("the poses have no stamps, so they cannot be plotted over time", hint="KITTI has no stamps.")
+    curves = []
+    order = np.argsort(poses.stamps, kind="stable")
+    for text in quantities:
+        if text not in POSE_QUANTITIES:
+            raise PlotError(
+                f"{text!r} is not a quantity of poses",
+                hint=f"{did_you_mean(text, POSE_QUANTITIES)} Quantities: {', '.join(POSE_QUANTITIES)}.".lstrip(),
+            )
+        expression = PoseExpression(text, "", "", text)
+        values = coordinate(poses, text)[order]
+        curves.append(Series(text, np.asarray(poses.stamps)[order], values, axis_title(expression)))
+    return curves
+
+
 def _evaluate(expression: Expression, recording: Recording, report: Callable[[str, int, int], object]) -> Series:
     if isinstance(expression, PoseExpression):
         return _pose_curve(expression, recording)
@@ -110,6 +139,8 @@ def _field_curve(
     expression: FieldExpression, recording: Recording, report: Callable[[str, int, int], object]
 ) -> Series:
     topic = _existing_topic(recording, expression.topic)
+    if (poses := _topic_poses(recording, topic, expression)) is not None:
+        return poses
     total = recording.topics[topic].messages
     stamps, values = [], []
     missing = damaged = 0
@@ -135,6 +166,18 @@ def _field_curve(
         axis_title(expression),
         damaged + missing,
     )
+
+
+def _topic_poses(recording: Recording, topic: str, expression: FieldExpression) -> Series | None:
+    """Return the quantity of the poses on a topic, such as ``/odom.yaw``; None if the expression is a field."""
+    *path, quantity = expression.path
+    source = FieldSource(topic, expression.path)
+    if quantity not in POSE_QUANTITIES or not recording.topics[topic].messages or not has_pose(recording, source):
+        return None
+    poses = topic_poses(recording, FieldSource(topic, tuple(path)), lambda _sentence: None)
+    as_pose = PoseExpression(expression.text, "", "", str(quantity))
+    values = coordinate(poses, str(quantity))
+    return Series(expression.text, np.asarray(poses.stamps, dtype=np.int64), values, axis_title(as_pose))
 
 
 def _timing_curve(

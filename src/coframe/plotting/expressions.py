@@ -8,6 +8,7 @@ quantity:
 ``odom->base_link.x``            a coordinate of the pose of ``base_link`` relative to ``odom``: ``x``, ``y``, ``z``,
                                  ``roll``, ``pitch``, ``yaw`` or ``distance``
 ``/odom.twist.twist.linear.x``   a field of the messages on a topic; ``/scan.ranges[0]`` is an element of a sequence
+``/odom.yaw``                    a coordinate of the poses on a topic, if no field has this name
 ``/tf.rate``, ``/tf.delay``      the rate or the delay of a topic; ``odom->base_link.rate`` that of one edge
 ===============================  =====================================================================================
 

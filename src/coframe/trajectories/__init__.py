@@ -5,6 +5,7 @@ from coframe.errors import TrajectoryError
 from coframe.trajectories._alignment import ALIGNMENTS, Alignment, align
 from coframe.trajectories._association import associate
 from coframe.trajectories._comparison import (
+    PLANES,
     Comparison,
     Delta,
     PoseErrors,
@@ -12,18 +13,22 @@ from coframe.trajectories._comparison import (
     compare_trajectories,
     parse_delta,
 )
+from coframe.trajectories._offsets import BodyOffset, TimeShift
 from coframe.trajectories._reading import READABLE_FORMATS, read_trajectory
 from coframe.trajectories.formats import FORMATS, format_of, write_trajectory
 
 __all__ = [
     "ALIGNMENTS",
     "FORMATS",
+    "PLANES",
     "READABLE_FORMATS",
     "Alignment",
+    "BodyOffset",
     "Comparison",
     "Delta",
     "PoseErrors",
     "Statistics",
+    "TimeShift",
     "TrajectoryError",
     "align",
     "associate",

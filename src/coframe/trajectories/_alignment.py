@@ -14,9 +14,9 @@ from coframe.transform.transform import Transform
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["ALIGNMENTS", "Alignment", "align"]
+__all__ = ["ALIGNMENTS", "Alignment", "align", "align_origin", "align_scale", "check_positions"]
 
-ALIGNMENTS = ("none", "se3", "sim3")
+ALIGNMENTS = ("none", "se3", "sim3", "scale")
 MAX_POSITION = 1e100  # meters. Squares of larger numbers overflow, and LAPACK may never return for infinite values.
 
 
@@ -64,6 +64,36 @@ def align(reference: Transform, estimate: Transform, *, with_scale: bool = False
     rotation, translation, scale = _umeyama(estimate.translation, reference.translation, with_scale)
     q = quaternion.from_matrix(rotation)
     return Alignment(Transform(translation, q, target=reference.target, source=estimate.target), scale)
+
+
+def align_scale(reference: Transform, estimate: Transform) -> Alignment:
+    """Return only the scale of :func:`align`, about the origin of the estimate's frame.
+
+    Args:
+        reference: A batch of shape (N,), as returned by :func:`associate`.
+        estimate: A batch of the same shape.
+
+    Raises:
+        TrajectoryError: As :func:`align`.
+    """
+    scale = align(reference, estimate, with_scale=True).scale
+    return Alignment(Transform(target=estimate.target, source=estimate.target), scale)
+
+
+def align_origin(reference: Transform, estimate: Transform, *, scale: float = 1.0) -> Alignment:
+    """Return the alignment that makes the first poses equal.
+
+    Args:
+        reference: A batch of shape (N,), as returned by :func:`associate`.
+        estimate: A batch of the same shape.
+        scale: Factor for the positions of the estimate.
+    """
+    scaled = Alignment(Transform(), scale).apply(estimate[:1].replace(target=None))
+    motion = reference[:1].replace(source=None) @ scaled.replace(source=None).inverse()
+    return Alignment(
+        Transform(motion.translation[0], motion.quaternion[0], target=reference.target, source=estimate.target),
+        scale,
+    )
 
 
 def check_positions(poses: Transform) -> None:

@@ -58,7 +58,8 @@ def associate(
         raise TrajectoryError(
             f"No stamps of the two trajectories are within {duration(limit)} of each other: the reference has stamps "
             f"from {spans[0]}, the estimate from {spans[1]}",
-            hint="If both use the same clock, allow a larger difference.",
+            hint="If both use the same clock, allow a larger difference. If both began at the same time, the time "
+            f"offset of the estimate is {seconds(int(reference.stamps.min()) - int(estimate.stamps.min()))} s.",
         )
     if is_estimate_longer:
         return reference[in_short], estimate[in_long]

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
@@ -12,18 +13,28 @@ import numpy as np
 from coframe import quaternion
 from coframe._output.formatting import count
 from coframe.errors import TrajectoryError
-from coframe.time import SECOND, duration_ns
-from coframe.trajectories._alignment import ALIGNMENTS, Alignment, align, check_positions
+from coframe.time import MILLISECOND, SECOND, duration_ns
+from coframe.trajectories._alignment import (
+    ALIGNMENTS,
+    Alignment,
+    align,
+    align_origin,
+    align_scale,
+    check_positions,
+)
 from coframe.trajectories._association import MAX_DIFFERENCE, associate
+from coframe.trajectories._offsets import BodyOffset, TimeShift, find_body_offset, find_time_shift
+from coframe.transform.transform import Transform
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from coframe.time import DurationLike
-    from coframe.transform.transform import Transform
 
-__all__ = ["Comparison", "Delta", "PoseErrors", "Statistics", "compare_trajectories", "parse_delta"]
+__all__ = ["PLANES", "Comparison", "Delta", "PoseErrors", "Statistics", "compare_trajectories", "parse_delta"]
 
+# The axis that a projection to a plane removes.
+PLANES = {"xy": 2, "xz": 1, "yz": 0}
 _NUMBER = re.compile(r"\s*(\d+(?:\.\d*)?|\.\d+)\s*([a-z]*)\s*", re.ASCII)
 _FRAMES, _METERS = {"", "f", "frame", "frames"}, {"m", "meter", "meters", "metre", "metres"}
 
@@ -107,6 +118,8 @@ class Comparison:
         ape: The absolute pose errors, (N,).
         rpe: The relative pose errors, one for each pair of poses that are ``delta`` apart.
         delta: The distance between the poses of a relative error.
+        body_offset: The constant pose between the frames of both trajectories, if it explains most of the error.
+        time_shift: The constant difference between the clocks of both, if it explains most of the error.
     """
 
     reference: Transform
@@ -115,6 +128,8 @@ class Comparison:
     ape: PoseErrors
     rpe: PoseErrors
     delta: Delta
+    body_offset: BodyOffset | None = None
+    time_shift: TimeShift | None = None
 
     def as_dict(self) -> dict[str, Any]:
         """Return the statistics and the alignment as a dictionary for JSON; meters and radians."""
@@ -129,6 +144,18 @@ class Comparison:
             "alignment": aligned,
             "ape": _as_dict(self.ape),
             "rpe": {"delta": self.delta.value, "delta_unit": self.delta.unit, **_as_dict(self.rpe)},
+            "body_offset": self.body_offset
+            and {
+                "translation": self.body_offset.transform.translation.tolist(),
+                "quaternion": self.body_offset.transform.quaternion.tolist(),
+                "translation_rmse": list(self.body_offset.translation_rmse),
+                "rotation_rmse": list(self.body_offset.rotation_rmse),
+            },
+            "time_shift": self.time_shift
+            and {
+                "offset_ns": self.time_shift.offset,
+                "translation_rmse": list(self.time_shift.translation_rmse),
+            },
         }
 
 
@@ -139,6 +166,11 @@ def compare_trajectories(
     align: str = "none",
     max_difference: DurationLike = MAX_DIFFERENCE,
     delta: float | str | Delta = 1,
+    t_offset: DurationLike = 0,
+    n_to_align: int | None = None,
+    align_origin: bool = False,
+    project: str | None = None,
+    body_offset: Transform | None = None,
 ) -> Comparison:
     """Compare an estimated trajectory with a reference: absolute (APE) and relative (RPE) pose errors.
 
@@ -149,9 +181,17 @@ def compare_trajectories(
     Args:
         reference: A batch of shape (N,), such as from :func:`read_trajectory` or :meth:`coframe.Buffer.trajectory`.
         estimate: A batch of shape (M,). The names of the frames are not compared.
-        align: ``none``, ``se3`` for a rigid motion of the estimate, ``sim3`` to also scale it.
+        align: ``none``, ``se3`` for a rigid motion of the estimate, ``sim3`` to also scale it, ``scale`` to only scale
+            it.
         max_difference: The maximum difference between the stamps of two compared poses.
         delta: A number of poses, or a string for :func:`parse_delta`.
+        t_offset: What to add to the stamps of the estimate: nanoseconds, or a string such as ``"-35ms"``.
+        n_to_align: The number of pairs for the alignment, from the first one; None means all.
+        align_origin: Whether to move the estimate so that the first poses are equal; not with ``se3`` and ``sim3``.
+        project: The plane to which both are projected after the alignment: ``xy``, ``xz`` or ``yz``. Rotations are
+            those about the axis that is perpendicular to it.
+        body_offset: The pose of the reference's frame relative to the frame of the estimate, such as of a camera on a
+            robot: the poses of the estimate are multiplied by it first.
 
     Raises:
         TrajectoryError: No stamps match, the alignment is not determined, no two poses are ``delta`` apart, or a
@@ -169,16 +209,27 @@ def compare_trajectories(
         >>> round(compare_trajectories(truth, moved, align="se3").ape.translation_statistics.rmse, 9)
         0.0
     """
-    if align not in ALIGNMENTS:
-        raise ValueError(f"No alignment named {align!r}. Alignments: {', '.join(ALIGNMENTS)}.")
+    _check_options(align, n_to_align, project, align_origin=align_origin)
     for name, poses in (("reference", reference), ("estimate", estimate)):
         if len(poses.shape) != 1 or not len(poses):
             raise ValueError(f"The {name} must be a batch of shape (N,) with at least one pose, not {poses.shape}.")
         check_positions(poses)
     chosen = _checked_delta(delta)
-    reference, estimate = associate(reference, estimate, max_difference)
-    alignment = None if align == "none" else _align(reference, estimate, align)
+    if body_offset is not None:
+        estimate = estimate @ body_offset.replace(target=estimate.source, source=estimate.source, stamp=None)
+    estimate = _shifted(estimate, _signed_duration(t_offset))
+    method = _Method(align, n_to_align, align_origin)
+    every = reference, estimate
+    reference, estimate = _associated(*every, method, max_difference)
+    time_shift, found = _constant_differences(*every, method, max_difference)
+    if time_shift is not None:
+        time_shift = time_shift._replace(offset=time_shift.offset + _signed_duration(t_offset))
+    if found is not None and body_offset is not None:
+        found = found._replace(transform=body_offset.replace(target=None, source=None, stamp=None) @ found.transform)
+    alignment = method.alignment(reference, estimate)
     estimate = estimate if alignment is None else alignment.apply(estimate)
+    if project is not None:
+        reference, estimate = _projected(reference, PLANES[project]), _projected(estimate, PLANES[project])
     return Comparison(
         reference,
         estimate,
@@ -186,6 +237,100 @@ def compare_trajectories(
         _absolute_errors(reference, estimate),
         _relative(reference, estimate, chosen),
         chosen,
+        found,
+        time_shift,
+    )
+
+
+class _Method(NamedTuple):
+    """How the estimate is aligned."""
+
+    align: str
+    pairs: int | None
+    origin: bool
+
+    def alignment(self, reference: Transform, estimate: Transform) -> Alignment | None:
+        """Return the alignment of paired poses; None without one."""
+        first = slice(None, self.pairs)
+        used = reference[first], estimate[first]
+        if self.align in {"se3", "sim3"}:
+            return align(*used, with_scale=self.align == "sim3")
+        scaled = align_scale(*used) if self.align == "scale" else None
+        if self.origin:
+            return align_origin(reference, estimate, scale=1.0 if scaled is None else scaled.scale)
+        return scaled
+
+
+def _check_options(align: str, n_to_align: int | None, project: str | None, *, align_origin: bool) -> None:
+    if align not in ALIGNMENTS:
+        raise ValueError(f"No alignment named {align!r}. Alignments: {', '.join(ALIGNMENTS)}.")
+    if align_origin and align in {"se3", "sim3"}:
+        raise ValueError(f"align={align!r} and align_origin are mutually exclusive: give one of them")
+    if n_to_align is not None and n_to_align < 1:
+        raise ValueError(f"n_to_align must be at least 1, not {n_to_align}")
+    if project is not None and project not in PLANES:
+        raise ValueError(f"No plane named {project!r}. Planes: {', '.join(PLANES)}.")
+
+
+def _signed_duration(given: DurationLike) -> int:
+    """Return a duration in nanoseconds, which may be negative."""
+    if isinstance(given, str):
+        text = given.strip()
+        return -duration_ns(text[1:]) if text.startswith("-") else duration_ns(text.removeprefix("+"))
+    return int(given) if isinstance(given, int) else duration_ns(given)
+
+
+def _shifted(poses: Transform, offset: int) -> Transform:
+    if poses.stamps is None or not offset:
+        return poses
+    return poses.replace(stamp=poses.stamps + offset)
+
+
+def _associated(
+    reference: Transform, estimate: Transform, method: _Method, max_difference: DurationLike
+) -> tuple[Transform, Transform]:
+    """Return the pairs of poses; the error for none names the time shift after which both are alike."""
+    try:
+        return associate(reference, estimate, max_difference)
+    except TrajectoryError as error:
+        shift = find_time_shift(reference, estimate, method.alignment)
+        if shift is None:
+            raise
+        hint = (
+            f"Both are alike after a time shift: add {shift.offset / MILLISECOND:.3f} ms to the stamps of the estimate."
+        )
+        raise TrajectoryError(str(error).partition("\nHint:")[0], hint=hint) from None
+
+
+def _constant_differences(
+    reference: Transform, estimate: Transform, method: _Method, max_difference: DurationLike
+) -> tuple[TimeShift | None, BodyOffset | None]:
+    """Return a time shift and a body offset that explain most of the errors."""
+    offset = find_body_offset(*associate(reference, estimate, max_difference), method.alignment)
+    shift = find_time_shift(reference, estimate, method.alignment, with_offset=offset is not None)
+    if shift is None:
+        return None, offset
+    # The shift may lie between the stamps.
+    nearest = max(duration_ns(max_difference), *map(_period, (reference, estimate)))
+    with suppress(TrajectoryError):
+        offset = find_body_offset(*associate(reference, _shifted(estimate, shift.offset), nearest), method.alignment)
+    return shift, offset
+
+
+def _period(poses: Transform) -> int:
+    """Return the median time between two poses in nanoseconds; 0 without stamps."""
+    if poses.stamps is None or len(poses) < 2:
+        return 0
+    return int(np.median(np.abs(np.diff(poses.stamps))))
+
+
+def _projected(poses: Transform, axis: int) -> Transform:
+    """Return poses without the coordinate along an axis, and with the rotation about it only."""
+    positions, angles = poses.translation.copy(), np.zeros((len(poses), 3))
+    positions[:, axis] = 0.0
+    angles[:, axis] = poses.rpy[:, axis]
+    return Transform(
+        positions, quaternion.from_rpy(angles), target=poses.target, source=poses.source, stamp=poses.stamps
     )
 
 
@@ -221,10 +366,6 @@ def _checked_delta(delta: float | str | Delta) -> Delta:
     if not chosen.value > 0 or not is_whole:
         raise ValueError(f"delta must be positive, and a whole number for poses, not {chosen.value:g} {chosen.unit}")
     return chosen
-
-
-def _align(reference: Transform, estimate: Transform, kind: str) -> Alignment:
-    return align(reference, estimate, with_scale=kind == "sim3")
 
 
 def _as_dict(errors: PoseErrors) -> dict[str, Any]:

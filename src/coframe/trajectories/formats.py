@@ -24,7 +24,15 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-__all__ = ["EUROC_HEADER", "FORMATS", "FORMATS_WITH_COLUMNS", "POSE_COLUMNS", "format_of", "write_trajectory"]
+__all__ = [
+    "EUROC_HEADER",
+    "FORMATS",
+    "FORMATS_WITH_COLUMNS",
+    "POSE_COLUMNS",
+    "TRAJECTORY_SUFFIXES",
+    "format_of",
+    "write_trajectory",
+]
 
 POSE_COLUMNS = ("x", "y", "z", "qx", "qy", "qz", "qw")
 # The header line of the EuRoC data set.
@@ -40,6 +48,7 @@ _SUFFIXES = {
     ".parquet": "parquet",
     ".npz": "npz",
 }
+TRAJECTORY_SUFFIXES = frozenset(_SUFFIXES) - {".parquet"}  # of files that can be read
 # Text takes twenty times as much memory as numbers, so only this many rows are formatted at once.
 _ROWS = 10_000
 _Rows = tuple[Transform, "Mapping[str, NDArray[np.int64]]"]  # poses, and more columns

@@ -13,8 +13,9 @@ from coframe.bags.tables._fields import FieldReader
 from coframe.bags.tables._leaves import Leaf
 from coframe.bags.tables._matching import Picks, pick
 from coframe.bags.tables._values import check_interpolation, values_at
-from coframe.bags.tables.columns import Key
+from coframe.bags.tables.columns import Key, PoseSource
 from coframe.bags.tables.table import TableColumn, TableValue
+from coframe.buffer import Buffer
 from coframe.buffer.gaps import long_gap_text
 from coframe.errors import DecodeError, RecordingError, TransformException
 from coframe.trajectories.formats import POSE_COLUMNS
@@ -27,9 +28,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from coframe.bags.recording import Recording
-    from coframe.bags.tables.columns import FieldSource, Method, PoseSource
+    from coframe.bags.tables.columns import FieldSource, Method
 
-__all__ = ["FieldColumn", "PoseColumn", "Sampled", "TopicReader", "outside_text"]
+__all__ = ["FieldColumn", "PoseColumn", "Sampled", "TopicReader", "outside_text", "path_column"]
 
 MAX_ELEMENT_NAMES = 1000  # of one topic
 _MIN_INTERVALS = 10  # With fewer messages, the usual period of a topic is not known.
@@ -259,16 +260,16 @@ class PoseColumn:
     """
 
     def __init__(
-        self, label: str, source: PoseSource, recording: Recording, max_gap: int | None, *, covariance: bool
+        self, label: str, source: PoseSource, buffer: Buffer, max_gap: int | None, *, covariance: bool
     ) -> None:
         self.label = label
-        self._buffer = recording.buffer
+        self._buffer = buffer
         self._max_gap = max_gap
         self._covariance = covariance
         self._target, self._source, self._quantity = source.target, source.source, ""
         name, dot, quantity = source.source.rpartition(".")
         if source.is_text and dot and quantity in POSE_QUANTITIES:
-            known = set(recording.buffer.frame_names())
+            known = set(buffer.frame_names())
             if source.source not in known:
                 self._source, self._quantity = name, quantity
         self._target, self._source = (frame.removeprefix("/") or frame for frame in (self._target, self._source))
@@ -299,8 +300,7 @@ class PoseColumn:
         times = np.concatenate(self._times) if self._times else np.empty(0, np.int64)
         text = "" if self._max_gap is not None else long_gap_text(self._buffer, self._target, self._source, times)
         if self._covariance and not self._has_covariance:
-            edges = f"no transform between {self._target!r} and {self._source!r} has a covariance"
-            zero = f"{edges}, so those of {self.label} are 0"
+            zero = f"no pose of {self.label} has a covariance, so its covariances are 0"
             return f"{text}; {zero}" if text else zero
         return text
 
@@ -332,6 +332,24 @@ class PoseColumn:
             for name, array in zip(POSE_COLUMNS, np.ascontiguousarray(rows.T), strict=True)
         ]
         return [*values, TableValue(_COVARIANCE, covariances, valid)] if self._covariance else values
+
+
+def path_column(label: str, poses: Transform, max_gap: int | None, *, covariance: bool) -> PoseColumn:
+    """Return a column with the poses of a trajectory.
+
+    Raises:
+        RecordingError: It has no stamps.
+    """
+    if poses.stamps is None or len(poses.shape) != 1 or not len(poses):
+        raise RecordingError(
+            f"{label} has no stamps, so it has no poses at the times of the rows",
+            hint="Give a trajectory with stamps: a batch of shape (N,), or a file such as TUM or EuRoC.",
+        )
+    buffer = Buffer(None)
+    order = np.argsort(poses.stamps, kind="stable")
+    plain = poses[order].replace(target=None, source=None)
+    buffer.set_many("reference", "pose", None, plain)
+    return PoseColumn(label, PoseSource("reference", "pose"), buffer, max_gap, covariance=covariance)
 
 
 def _marked(array: NDArray[Any], known: NDArray[np.bool_]) -> NDArray[Any]:

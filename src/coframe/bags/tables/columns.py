@@ -5,11 +5,14 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
 from coframe._output.formatting import did_you_mean
 from coframe.errors import RecordingError
 from coframe.time import duration_ns
+from coframe.trajectories.formats import TRAJECTORY_SUFFIXES
+from coframe.transform.transform import Transform
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,6 +25,7 @@ __all__ = [
     "ColumnLike",
     "FieldSource",
     "Method",
+    "PathSource",
     "PoseSource",
     "Step",
     "column",
@@ -61,6 +65,16 @@ class FieldSource(NamedTuple):
     path: tuple[Step, ...] = ()
 
 
+class PathSource(NamedTuple):
+    """A trajectory that is not in the recording.
+
+    Attributes:
+        poses: The poses with their stamps, or the name of a file.
+    """
+
+    poses: Transform | str
+
+
 class PoseSource(NamedTuple):
     """The pose of a frame.
 
@@ -82,7 +96,8 @@ class Column:
     Attributes:
         source: A topic with or without a field (``"/odom"``, ``"/imu.angular_velocity"``, ``"/scan.ranges[0]"``,
             ``"/joint_states.position[elbow]"``), or a pose: ``("map", "camera")``, which is the pose of ``camera``
-            relative to ``map``, ``"map:camera"``, or one of its quantities, ``"map:camera.yaw"``.
+            relative to ``map``, ``"map:camera"``, or one of its quantities, ``"map:camera.yaw"``; or a trajectory: a
+            batch of poses with stamps, or the name of a file for :func:`coframe.trajectories.read_trajectory`.
         method: Which messages the value at a time comes from: the ``"nearest"`` one, the ``"previous"`` one, or the one
             whose stamp is equal (``"match"``); ``"interpolate"`` numbers linearly between the two messages around the
             time, and quaternions along the shortest arc. None means the method of the table. Poses of frames are
@@ -94,7 +109,7 @@ class Column:
             table.
     """
 
-    source: str | tuple[str, str]
+    source: str | tuple[str, str] | Transform
     method: Method | None = None
     name: str = ""
     tolerance: DurationLike | None = None
@@ -112,7 +127,9 @@ class Column:
                     f"{self.label}: {what} must {'not be negative' if not smallest else 'be positive'}"
                 )
         parsed = self.parsed
-        if isinstance(parsed, PoseSource) and (self.tolerance is not None or self.method not in {None, "interpolate"}):
+        if not isinstance(parsed, FieldSource) and (
+            self.tolerance is not None or self.method not in {None, "interpolate"}
+        ):
             option = "method" if self.tolerance is None else "tolerance"
             raise RecordingError(
                 f"{self.label}: poses of frames are interpolated between transforms, so they have no {option}",
@@ -122,21 +139,27 @@ class Column:
     @property
     def label(self) -> str:
         """The name of the column in the table."""
-        return self.name or (self.source if isinstance(self.source, str) else ":".join(self.source))
+        if self.name:
+            return self.name
+        if isinstance(self.source, Transform):
+            return self.source.source or "trajectory"
+        if isinstance(self.source, str):
+            return Path(self.source).stem if isinstance(self.parsed, PathSource) else self.source
+        return ":".join(self.source)
 
     @property
-    def parsed(self) -> FieldSource | PoseSource:
+    def parsed(self) -> FieldSource | PoseSource | PathSource:
         """What the source means.
 
         Raises:
             RecordingError: It is not a source of a column.
         """
-        if not isinstance(self.source, str):
-            return PoseSource(*self.source)
-        return _parse_source(self.source)
+        if isinstance(self.source, Transform):
+            return PathSource(self.source)
+        return _parse_source(self.source) if isinstance(self.source, str) else PoseSource(*self.source)
 
 
-ColumnLike: TypeAlias = "str | tuple[str, str] | Column"
+ColumnLike: TypeAlias = "str | tuple[str, str] | Transform | Column"
 
 
 def column(given: ColumnLike) -> Column:
@@ -155,6 +178,8 @@ def column(given: ColumnLike) -> Column:
     """
     if isinstance(given, Column):
         return given
+    if isinstance(given, Transform):
+        return Column(given)
     if isinstance(given, str):
         return _parse_column(given)
     other: object = given
@@ -165,7 +190,7 @@ def column(given: ColumnLike) -> Column:
 
 def one_or_more(given: ColumnLike | Sequence[ColumnLike]) -> list[ColumnLike]:
     """Return columns as a list. A tuple of two names is one pose if they are names of frames."""
-    if isinstance(given, str | Column):
+    if isinstance(given, str | Column | Transform):
         return [given]
     is_pose = isinstance(given, tuple) and list(map(type, given)) == [str, str]
     if is_pose and not any(str(each).startswith("/") or ":" in str(each) for each in given):
@@ -186,7 +211,10 @@ def _parse_column(text: str) -> Column:
     return Column(source, method, name, limit)  # type: ignore[arg-type]  # Column checks the method
 
 
-def _parse_source(text: str) -> FieldSource | PoseSource:
+def _parse_source(text: str) -> FieldSource | PoseSource | PathSource:
+    is_file_name = Path(text).suffix.lower() in TRAJECTORY_SUFFIXES
+    if is_file_name and (Path(text).is_file() or not (text.startswith("/") or _ARROW.search(text))):
+        return PathSource(text)
     frames = [part.strip() for part in _ARROW.split(text, maxsplit=1)]
     if len(frames) == 2:
         if not all(frames):

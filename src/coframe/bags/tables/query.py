@@ -13,12 +13,13 @@ from coframe._output.formatting import count, did_you_mean, duration, join_names
 from coframe.bags._trajectory_query import MAX_RATE, stamps_at_rate
 from coframe.bags.namespaces import ALL_TRANSFORMS, TransformChoice
 from coframe.bags.tables._covariances import load_covariances
-from coframe.bags.tables._sampling import FieldColumn, PoseColumn, TopicReader, outside_text
-from coframe.bags.tables.columns import METHODS, Column, FieldSource, column, one_or_more
+from coframe.bags.tables._sampling import FieldColumn, PoseColumn, TopicReader, outside_text, path_column
+from coframe.bags.tables.columns import METHODS, Column, FieldSource, PathSource, PoseSource, column, one_or_more
 from coframe.bags.tables.table import Table
 from coframe.bags.time_points import parse_time_point
 from coframe.buffer.gaps import gap_limit
 from coframe.errors import ExtrapolationException, RecordingError
+from coframe.trajectories import read_trajectory
 from coframe.transform.values import stamps_of
 
 if TYPE_CHECKING:
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
     from coframe.bags.tables.table import TableColumn
     from coframe.buffer.gaps import OnGap
     from coframe.time import DurationLike, StampLike
+    from coframe.transform.transform import Transform
 
 __all__ = ["MAX_BATCH_BYTES", "MAX_BATCH_ROWS", "MAX_ROWS", "TableQuery"]
 
@@ -138,7 +140,7 @@ class _Evaluation:
         parsed = [column(each) for each in one_or_more(query.columns)]
         self._at = None if stamps is not None else self._at_topic(parsed)
         if query.covariance:
-            load_covariances(recording, [each.parsed for each in parsed if not isinstance(each.parsed, FieldSource)])
+            load_covariances(recording, [each.parsed for each in parsed if isinstance(each.parsed, PoseSource)])
         self._columns = [self._new_column(each) for each in parsed]
         names = [each.label for each in self._columns]
         if twice := [name for name in names if names.count(name) > 1]:
@@ -257,8 +259,11 @@ class _Evaluation:
         max_gap = requested.max_gap if requested.max_gap is not None else query.max_gap
         limit = None if max_gap is None else time.duration_ns(max_gap)
         source = requested.parsed
-        if not isinstance(source, FieldSource):
-            return PoseColumn(requested.label, source, self._recording, limit, covariance=query.covariance)
+        if isinstance(source, PathSource):
+            poses = self._read_path(source.poses) if isinstance(source.poses, str) else source.poses
+            return path_column(requested.label, poses, limit, covariance=query.covariance)
+        if isinstance(source, PoseSource):
+            return PoseColumn(requested.label, source, self._recording.buffer, limit, covariance=query.covariance)
         tolerance = requested.tolerance if requested.tolerance is not None else query.tolerance
         return FieldColumn(
             requested.label,
@@ -268,6 +273,9 @@ class _Evaluation:
             None if tolerance is None else time.duration_ns(tolerance),
             limit,
         )
+
+    def _read_path(self, file: str) -> Transform:
+        return read_trajectory(file, report=self._report)
 
     def _part(self, times: NDArray[np.int64], rows: NDArray[np.intp] | None) -> Table:
         """Return the table at some times, with the numbers of their messages if they are the stamps of a topic."""

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Trajectories as arguments: files, frames in recordings, and topics of recordings."""
+
+from __future__ import annotations
+
+from pathlib import Path, PurePath
+from typing import TYPE_CHECKING
+from urllib.parse import urlsplit
+
+from coframe._sources.sources import as_source
+from coframe._sources.urls import is_url
+from coframe.bags.formats import has_known_suffix
+from coframe.cli.output import fail, warn
+from coframe.cli.recordings import open_recording
+from coframe.trajectories import read_trajectory
+from coframe.trajectories.formats import TRAJECTORY_SUFFIXES
+
+if TYPE_CHECKING:
+    from coframe._sources.sources import Readable
+    from coframe.bags.namespaces import TransformChoice
+    from coframe.transform.transform import Transform
+
+__all__ = ["TRAJECTORY_FORMS", "is_trajectory_file", "read_argument", "read_file"]
+
+TRAJECTORY_FORMS = (
+    "a TUM, KITTI, EuRoC, CSV or npz file, BAG:/TOPIC for the poses on a topic, such as Odometry, PoseStamped or Path, "
+    "or BAG:TARGET:SOURCE for the poses of the frame SOURCE relative to TARGET"
+)
+
+
+def is_trajectory_file(file: Readable) -> bool:
+    """Return whether an argument is a trajectory file and not a recording, by its suffix."""
+    is_folder = isinstance(file, Path) and file.is_dir()
+    return PurePath(file.name).suffix.lower() in TRAJECTORY_SUFFIXES and not is_folder
+
+
+def read_file(file: Readable) -> Transform:
+    """Return the trajectory in a file; print on stderr what is suspicious about it."""
+    return read_trajectory(file, report=warn)
+
+
+def read_argument(text: str, choice: TransformChoice) -> Transform:
+    """Return the trajectory that an argument names; end the command if it is not one.
+
+    Args:
+        text: A file, ``BAG:/TOPIC`` or ``BAG:TARGET:SOURCE``; files and recordings may be URLs.
+        choice: The transforms of the recording.
+
+    Raises:
+        CoframeError: The file, the recording, the topic or the frames cannot be read.
+    """
+    path, source = _split(text)
+    if source:
+        with open_recording(path, choice) as recording:
+            return recording.trajectory(source)
+    file = as_source(path)
+    if has_known_suffix(PurePath(file.name)) or (isinstance(file, Path) and file.is_dir()):
+        fail(
+            f"{path} is a recording: give a topic with poses, or two of its frames",
+            f"Write BAG:/TOPIC or BAG:TARGET:SOURCE, for example {path}:/odom or {path}:map:base_link.",
+            code=2,
+        )
+    return read_file(file)
+
+
+def _split(text: str) -> tuple[str, str]:
+    """Split an argument into a path and a topic or two frames; a path may contain colons."""
+    if not is_url(text) and Path(text).exists():
+        return text, ""
+    bag, colon, topic = text.rpartition(":/")
+    if colon and (is_url(bag) or (bag and Path(bag).exists())):
+        return bag, f"/{topic}"
+    first, *frames = text.rsplit(":", 2)
+    is_part_of_url = is_url(text) and not (is_url(first) and urlsplit(first).path)  # http://host:8000/run.tum
+    if len(frames) == 2 and all((first, *frames)) and not is_part_of_url:
+        return first, ":".join(frames)
+    if frames and not is_url(text) and Path(first).exists():
+        fail(
+            f"{text!r} has one frame; a trajectory needs two",
+            "Write BAG:TARGET:SOURCE, or BAG:/TOPIC for the poses on a topic.",
+            code=2,
+        )
+    return text, ""
