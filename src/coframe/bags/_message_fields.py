@@ -61,6 +61,11 @@ class FrameFields:
         message_class = _class_of(channel, types)
         return cls(message_class) if message_class is not None and FrameNames(message_class).exist else None
 
+    @property
+    def is_quick(self) -> bool:
+        """Whether the only frame name is in the first bytes of the messages."""
+        return self._tail is not None
+
     def rename(self, data: bytes, rename: Callable[[str], str]) -> tuple[bytes, int]:
         """Replace the frame names in a message.
 

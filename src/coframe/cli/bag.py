@@ -190,7 +190,7 @@ def fix(
         if remaining:
             fail(
                 f"{count(len(remaining), 'problem')} of the recording cannot be fixed in a copy.",
-                f"`coframe doctor {report.path}` describes what to do about transforms.",
+                f"`coframe doctor {report.path}` describes what to do about transforms; --fix OUT repairs some.",
             )
 
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 import difflib
 import json
 import time
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -15,8 +16,9 @@ from rich.live import Live
 from rich.text import Text
 
 from coframe._process.freed_memory import return_freed_arrays
-from coframe.bags.namespaces import TransformChoice
-from coframe.cli.declaration import Command
+from coframe.bags.namespaces import ALL_TRANSFORMS, TransformChoice
+from coframe.cli.declaration import PATH, Command
+from coframe.cli.doctor_fix import fix_recording, print_recipe
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
 from coframe.cli.options import (
     PositiveDuration,
@@ -37,6 +39,7 @@ from coframe.doctor.rendering.text import lines
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
+    from pathlib import Path
 
     from coframe._sources.sources import Readable
     from coframe.doctor import Report
@@ -94,6 +97,16 @@ _CPU_SHARE = 0.006
     default=_TEN_SECONDS,
     help="Cache length to assume for listeners.",
 )
+@click.option(
+    "--recipe",
+    "shows_recipe",
+    is_flag=True,
+    help="Print the recipe that repairs the recording BAG, for `coframe bag edit --recipe`, instead of the report.",
+)
+@click.option(
+    "--fix", "fixed", metavar="OUT", type=PATH, help="Write a repaired copy of the recording BAG, and examine it."
+)
+@click.option("--yes", "-y", is_flag=True, help="Apply the recipe of --fix without asking.")
 @namespace_option
 @domain_option
 @recorded_listener_options
@@ -113,6 +126,9 @@ def doctor(
     list_codes: bool,
     duration: PositiveDuration,
     cache: PositiveDuration,
+    shows_recipe: bool,
+    fixed: Path | None,
+    yes: bool,
     namespace: str | None,
     domain: int | None,
     tf_topic: str | None,
@@ -125,14 +141,14 @@ def doctor(
     If nodes do not find each other, start with `coframe doctor --system`.
 
     The exit code is 0 if there are no errors or warnings (notes do not count), and 1 otherwise; --fail-on changes this.
+    With --fix, it is 0 if the repaired copy has none.
 
     Example: coframe doctor run.mcap --ignore TF018
+
+    Example: coframe doctor run.mcap --fix repaired.mcap
     """
-    if list_codes:
-        _list_codes(as_json)
-        return
-    if explain is not None:
-        _explain(explain)
+    if list_codes or explain is not None:
+        _print_page(explain, as_json)
         return
     del include_warnings, exclude_packages  # Warnings are always shown, and packages never.
     if shows_graph or report_failed:
@@ -143,16 +159,21 @@ def doctor(
         _check_system(bag, domain, duration, as_json=as_json, watch=watch, sarif=sarif)
         return
     ignored = _known_codes(ignore)
-    if as_json and sarif:
-        fail("--json cannot be combined with --sarif", code=2)
-    if watch and (sarif or bag is not None):
-        fail(f"--watch cannot be combined with {'--sarif' if sarif else 'a recording'}", code=2)
+    _check_combination(bag, watch=watch, as_json=as_json, sarif=sarif)
+    if fixed is not None or shows_recipe:
+        has_choice = bool(namespace or tf_topic or tf_static_topic or prefix)
+        _require_plain_recording(bag, has_choice or watch or as_json or sarif)
     with run_until_interrupted() if watch else run_to_completion():
         if bag is not None:
             choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
-            with reading_progress() as progress:
-                observations = observe_chosen(bag, choice, cache=cache, progress=progress)
-            reports = {name: diagnose(one, ignore=ignored) for name, one in observations.items()}
+            reports = _reports(bag, choice, ignored, cache)
+            if shows_recipe:
+                print_recipe(reports)
+                return
+            if fixed is not None:
+                _print(reports)
+                examine = partial(_examine, ignored=ignored, cache=cache)
+                fix_recording(bag, fixed, reports, examine, yes=yes)
             _print_and_exit(reports, as_json, sarif, bag, fail_on)
         from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no middleware
 
@@ -177,6 +198,13 @@ def doctor(
         _print_and_exit({"": report}, as_json, sarif, None, fail_on)
 
 
+def _check_combination(bag: Readable | None, *, watch: bool, as_json: bool, sarif: bool) -> None:
+    if as_json and sarif:
+        fail("--json cannot be combined with --sarif", code=2)
+    if watch and (sarif or bag is not None):
+        fail(f"--watch cannot be combined with {'--sarif' if sarif else 'a recording'}", code=2)
+
+
 def _check_system(
     bag: Readable | None, domain: int | None, duration: PositiveDuration, *, as_json: bool, watch: bool, sarif: bool
 ) -> None:
@@ -189,6 +217,14 @@ def _check_system(
         if Console(stderr=True).is_terminal:
             click.echo(f"searching for nodes for up to {duration} ...", err=True)
         examine_system(domain, duration.seconds, as_json=as_json)
+
+
+def _print_page(code: str | None, as_json: bool) -> None:
+    """Print the page about a code, or the list of all codes."""
+    if code is None:
+        _list_codes(as_json)
+    else:
+        _explain(code)
 
 
 def _list_codes(as_json: bool) -> None:
@@ -241,12 +277,7 @@ def _print_and_exit(reports: dict[str, Report], as_json: bool, sarif: bool, bag:
         data: Any = {name: as_data(report) for name, report in reports.items()}
         print(json.dumps(data[""] if list(data) == [""] else {"namespaces": data}, indent=2))
     else:
-        console = Console(highlight=False, soft_wrap=True)
-        for name, report in reports.items():
-            if len(reports) > 1:
-                console.print(Text(printable(f"{name or '/'}:"), style="bold"))
-            for line in _texts(report):
-                console.print(line)
+        _print(reports)
     raise Exit(0 if all(_passes(report, fail_on) for report in reports.values()) else 1)
 
 
@@ -257,6 +288,36 @@ def _passes(report: Report, fail_on: str) -> bool:
     lowest = Severity[fail_on.upper()]
     has_transforms = len(report.observation.transforms) > 0
     return has_transforms and all(finding.severity < lowest for finding in report.every_finding())
+
+
+def _print(reports: dict[str, Report]) -> None:
+    console = Console(highlight=False, soft_wrap=True)
+    for name, report in reports.items():
+        if len(reports) > 1:
+            console.print(Text(printable(f"{name or '/'}:"), style="bold"))
+        for line in _texts(report):
+            console.print(line)
+
+
+def _reports(bag: Readable, choice: TransformChoice, ignored: list[str], cache: PositiveDuration) -> dict[str, Report]:
+    """Return the report about each namespace of a recording."""
+    with reading_progress() as progress:
+        observations = observe_chosen(bag, choice, cache=cache, progress=progress)
+    return {name: diagnose(one, ignore=ignored) for name, one in observations.items()}
+
+
+def _examine(path: Path, ignored: list[str], cache: PositiveDuration) -> dict[str, Report]:
+    """Print the reports about a repaired recording, and return them."""
+    reports = _reports(path, ALL_TRANSFORMS, ignored, cache)
+    _print(reports)
+    return reports
+
+
+def _require_plain_recording(bag: Readable | None, has_other_options: bool) -> None:
+    if bag is None:
+        fail("--fix and --recipe need a recording", code=2)
+    if has_other_options:
+        fail("--fix and --recipe concern the whole recording, as text: remove the options that change that", code=2)
 
 
 def _texts(report: Report) -> list[Text]:

@@ -47,6 +47,9 @@ class Finding:
         harm: Why it matters, if it differs from the page of the code.
         edges: All edges with the same problem, if it was found for many of them; the text describes the first one.
         topics: All topics with the same problem, if it was found for many of them.
+        repairs: The rules of `coframe bag edit` that repair a recording, such as ``rename-frame Lidar=lidar``, if there
+            is one safe repair.
+        choices: Rules, or forms of rules, of which one repairs it, if a user has to choose.
     """
 
     code: str
@@ -62,6 +65,8 @@ class Finding:
     harm: str = ""
     edges: tuple[tuple[str, str], ...] = ()
     topics: tuple[str, ...] = ()
+    repairs: tuple[str, ...] = ()
+    choices: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if self.edge is not None:

@@ -67,4 +67,6 @@ def _merge_group(group: list[Finding]) -> Finding:
         frames=frozenset().union(*(finding.frames for finding in group)),
         first_stamp=min(stamps, default=None),
         publishers=tuple(dict.fromkeys(name for finding in group for name in finding.publishers)),
+        repairs=tuple(dict.fromkeys(rule for finding in group for rule in finding.repairs)),
+        choices=tuple(dict.fromkeys(rule for finding in group for rule in finding.choices)),
     )

@@ -30,7 +30,11 @@ if TYPE_CHECKING:
     from coframe.bags.editing._files import EditedInput
     from coframe.bags.editing._rule import Rule
 
-__all__ = ["EditReport", "RuleCount", "edit"]
+__all__ = ["DamagedRecordingError", "EditReport", "RuleCount", "edit"]
+
+
+class DamagedRecordingError(RecordingError):
+    """A damaged recording, which has to be repaired before it can be edited."""
 
 
 class RuleCount(NamedTuple):
@@ -117,7 +121,7 @@ def edit(
             files = _write(opened, target, part, pipeline, compression, progress)
             counts = [_counted(rule, Survey(opened, types)) for rule in rules]
         except DamagedError as error:
-            raise RecordingError(
+            raise DamagedRecordingError(
                 f"{source} is damaged: {error}", hint="Repair it first: `coframe bag fix BAG OUT`, then edit OUT."
             ) from None
         except OSError as error:

@@ -41,7 +41,7 @@ def rename_frames(topic: EditedTopic, rule: Rule, needed: bytes = b"") -> Step |
 
     def step(message: EditedMessage) -> bool:
         data = message.data
-        if needed in data:
+        if fields.is_quick or needed in data:
             new, changed = fields.rename(data, rule.frame)
             if changed:
                 message.data = new

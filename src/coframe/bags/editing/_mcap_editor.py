@@ -9,18 +9,16 @@ from __future__ import annotations
 
 import os
 import struct
-import zlib
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from coframe import _core
 from coframe._files.regular_files import open_regular
 from coframe.bags._compression import MAX_UNPACKED_BYTES, DamagedError
-from coframe.bags._mcap_writer import compressor
 from coframe.bags._offered_qos import OfferedQos, to_yaml
 from coframe.bags.editing import _mcap_layout as mcap
+from coframe.bags.editing._mcap_output import IndexedRecords, McapOutput
 from coframe.bags.editing._message import EditedMessage
 from coframe.bags.editing._metadata import ROSBAG2, edited_text
 from coframe.bags.formats import MCAP
@@ -44,27 +42,10 @@ _MAX_TIME = np.uint64((1 << 63) - 1)
 
 
 class _Edited(NamedTuple):
-    """Edited records: their bytes, and of each message the channel, the log time and the offset."""
+    """Edited records, and whether they differ from what was read."""
 
-    data: bytes | bytearray
-    channels: NDArray[np.uint16]
-    times: NDArray[np.uint64]
-    offsets: NDArray[np.uint64]
+    records: IndexedRecords
     is_changed: bool
-
-
-@dataclass
-class _Indexed:
-    """The chunk whose message indexes come next in the input."""
-
-    times: tuple[int, int]
-    offset: int
-    length: int
-    compression: str
-    packed: int
-    unpacked: int
-    index: dict[int, int]  # channel: offset of its message index
-    end: int  # offset of the end of the last one
 
 
 class McapEditor:
@@ -99,7 +80,6 @@ class McapEditor:
         self._all = definitions
         self._inserted = inserted
         self._compression = None if compression is None else ("" if compression == "none" else compression)
-        self._compressors: dict[str, Callable[[bytes], bytes]] = {}
         self._edited = edited
         self._definitions = mcap.Definitions()
         self._routes: dict[int, Route] = {}
@@ -107,50 +87,54 @@ class McapEditor:
         self._channels: dict[int, bytes] = {}  # contents of the edited records
         self._schemas: dict[int, bytes] = {}
         self._counts: dict[int, int] = {}
-        self._indexes: dict[int, list[bytes]] = {}  # index records by opcode
-        self._chunk: _Indexed | None = None
         self._copies_indexes = False
-        self._crc = 0
-        self._end = 0
 
     def run(self, progress: Callable[[int], object]) -> None:
         """Edit the file; `progress` is called with the number of bytes that have been read."""
         with open_regular(self._source) as file:
+            has_crc = mcap.has_data_crc(file, os.fstat(file.fileno()).st_size)
+            file.seek(0)
             if self._target is None:
-                self._edit(file, _Nowhere(), progress)
-            else:
-                with self._target.open("xb") as out:
-                    self._edit(file, out, progress)
+                with McapOutput(_Nowhere(), has_crc=False) as self._out:
+                    self._edit(file, progress)
+                return
+            with self._target.open("xb") as target, McapOutput(target, has_crc=has_crc) as self._out:
+                self._edit(file, progress)
+                target.flush()
+                os.fsync(target.fileno())
 
-    def _edit(self, file: BinaryIO, out: Any, progress: Callable[[int], object]) -> None:
-        self._out = out
+    def _edit(self, file: BinaryIO, progress: Callable[[int], object]) -> None:
         if file.read(len(MCAP.magic)) != MCAP.magic:
             raise DamagedError("it does not begin like an MCAP file")
-        self._write(MCAP.magic)
-        has_crc = False
+        self._out.write(MCAP.magic)
         while True:
             head = mcap.read_head(file)
             if head is None:
                 raise DamagedError("it is truncated: the recorder may have been killed")
             opcode, length = head
             if opcode != mcap.MESSAGE_INDEX:
-                self._finish_chunk()
+                self._out.finish_chunk()
             if opcode in {mcap.DATA_END, mcap.FOOTER}:
-                has_crc = opcode == mcap.DATA_END and any(file.read(4))
                 break
-            if opcode == mcap.CHUNK:
-                self._edit_chunk(self._content(file, length))
-            elif opcode in {mcap.SCHEMA, mcap.CHANNEL, mcap.MESSAGE}:
-                self._edit_block(file, length)
-            elif opcode == mcap.MESSAGE_INDEX:
-                self._copy_message_index(self._content(file, length))
-            elif opcode in {mcap.ATTACHMENT, mcap.METADATA} or opcode == mcap.HEADER or opcode > mcap.DATA_END:
-                self._copy_other(file, opcode, length)
-            else:
-                raise DamagedError(f"a record of the type 0x{opcode:02x} is in the wrong place")
+            self._edit_record(file, opcode, length)
             progress(file.tell())
         self._insert("")
-        self._write_end(has_crc)
+        self._finish()
+
+    def _edit_record(self, file: BinaryIO, opcode: int, length: int) -> None:
+        """Edit or copy the record whose content begins at the position of the file."""
+        if opcode == mcap.CHUNK:
+            self._edit_chunk(self._content(file, length))
+        elif opcode in {mcap.SCHEMA, mcap.CHANNEL, mcap.MESSAGE}:
+            self._edit_block(file, length)
+        elif opcode == mcap.MESSAGE_INDEX:
+            content = self._content(file, length)
+            if self._copies_indexes:
+                self._out.copy_message_index(content)
+        elif opcode in {mcap.HEADER, mcap.ATTACHMENT, mcap.METADATA} or opcode > mcap.DATA_END:
+            self._copy_other(file, opcode, length)
+        else:
+            raise DamagedError(f"a record of the type 0x{opcode:02x} is in the wrong place")
 
     def _content(self, file: BinaryIO, length: int) -> bytes:
         if length > MAX_UNPACKED_BYTES:
@@ -160,82 +144,17 @@ class McapEditor:
             raise DamagedError("it is truncated inside a record")
         return content
 
-    def _write(self, data: bytes | bytearray | memoryview) -> None:
-        self._crc = zlib.crc32(data, self._crc)
-        self._out.write(data)
-        self._end += len(data)
-
-    # Chunks
-
     def _edit_chunk(self, content: bytes) -> None:
         chunk = mcap.read_chunk(content)
         edited = self._edit_records(chunk.data)
         compression = chunk.compression if self._compression is None else self._compression
         self._insert(compression)
-        if not edited.is_changed and compression == chunk.compression:
-            self._begin_chunk(chunk.first, chunk.last, chunk.compression, chunk.packed, len(chunk.data))
-            self._write(mcap.RECORD.pack(mcap.CHUNK, len(content)))
-            self._write(content)
-            self._copies_indexes = True
-            self._end_of_chunk()
-        elif edited.data:
-            self._write_chunk(edited, compression, has_crc=chunk.has_crc)
-        self._count(edited)
-
-    def _begin_chunk(self, first: int, last: int, compression: str, packed: int, unpacked: int) -> None:
-        self._chunk = _Indexed((first, last), self._end, 0, compression, packed, unpacked, {}, 0)
-
-    def _end_of_chunk(self) -> None:
-        assert self._chunk is not None
-        self._chunk.length = self._end - self._chunk.offset
-        self._chunk.end = self._end
-
-    def _write_chunk(self, edited: _Edited, compression: str, *, has_crc: bool) -> None:
-        data = bytes(edited.data)
-        packed = self._packed(data, compression)
-        first, last = (int(edited.times.min()), int(edited.times.max())) if len(edited.times) else (0, 0)
-        self._begin_chunk(first, last, compression, len(packed), len(data))
-        head = struct.pack("<QQQI", first, last, len(data), zlib.crc32(data) if has_crc else 0)
-        head += mcap.encoded_text(compression) + struct.pack("<Q", len(packed))
-        self._write(mcap.RECORD.pack(mcap.CHUNK, len(head) + len(packed)) + head)
-        self._write(packed)
-        self._copies_indexes = False
-        self._end_of_chunk()
-        for number in np.unique(edited.channels).tolist():
-            rows = edited.channels == number
-            entries = np.column_stack((edited.times[rows], edited.offsets[rows])).astype("<u8").tobytes()
-            self._write_message_index(number, struct.pack("<HI", number, len(entries)) + entries)
-
-    def _packed(self, data: bytes, compression: str) -> bytes:
-        if compression not in self._compressors:
-            self._compressors[compression] = compressor(compression or "none")
-        return self._compressors[compression](data)
-
-    def _copy_message_index(self, content: bytes) -> None:
-        if self._chunk is not None and self._copies_indexes:
-            self._write_message_index(int.from_bytes(content[:2], "little"), content)
-
-    def _write_message_index(self, number: int, content: bytes) -> None:
-        assert self._chunk is not None
-        self._chunk.index[number] = self._end
-        self._write(mcap.record(mcap.MESSAGE_INDEX, content))
-        self._chunk.end = self._end
-
-    def _finish_chunk(self) -> None:
-        """Add the index record of the last chunk."""
-        chunk = self._chunk
-        if chunk is None:
-            return
-        self._chunk = None
-        offsets = b"".join(struct.pack("<HQ", *pair) for pair in chunk.index.items())
-        head = struct.pack("<QQQQI", *chunk.times, chunk.offset, chunk.length, len(offsets)) + offsets
-        head += struct.pack("<Q", chunk.end - chunk.offset - chunk.length) + mcap.encoded_text(chunk.compression)
-        self._add_index(mcap.CHUNK_INDEX, head + struct.pack("<QQ", chunk.packed, chunk.unpacked))
-
-    def _add_index(self, opcode: int, content: bytes) -> None:
-        self._indexes.setdefault(opcode, []).append(mcap.record(opcode, content))
-
-    # Records
+        self._copies_indexes = not edited.is_changed and compression == chunk.compression
+        if self._copies_indexes:
+            self._out.copy_chunk(content, chunk)
+        elif edited.records.data:
+            self._out.write_chunk(edited.records, compression, has_crc=chunk.has_crc)
+        self._count(edited.records)
 
     def _edit_block(self, file: BinaryIO, length: int) -> None:
         """Edit records outside of chunks."""
@@ -245,11 +164,11 @@ class McapEditor:
         done = _core.mcap_records(data)[6]
         if not done:
             raise DamagedError("it is truncated inside a record")
-        edited = self._edit_records(data[:done])
-        if len(edited.channels):
+        records = self._edit_records(data[:done]).records
+        if len(records.channels):
             self._insert(None)
-        self._write(edited.data)
-        self._count(edited)
+        self._out.write(records.data)
+        self._count(records)
         file.seek(start + done)
 
     def _edit_records(self, data: bytes) -> _Edited:
@@ -270,8 +189,8 @@ class McapEditor:
             message_patches = self._edit_messages(data, rows, channels, times, records, starts, ends, kept)
             patches = sorted([*patches, *message_patches]) if patches else message_patches
         if not patches:
-            return _Edited(data, channels, times, records, is_changed=False)
-        return _Edited(*_patched(data, patches, channels, times, records, kept), is_changed=True)
+            return _Edited(IndexedRecords(data, channels, times, records), is_changed=False)
+        return _Edited(_patched(data, patches, channels, times, records, kept), is_changed=True)
 
     def _edit_messages(
         self,
@@ -351,15 +270,13 @@ class McapEditor:
         self._channels[number] = new
         return new
 
-    def _count(self, edited: _Edited) -> None:
-        if not len(edited.times):
+    def _count(self, records: IndexedRecords) -> None:
+        if not len(records.times):
             return
-        self._edited.add_span(int(edited.times.min()), int(edited.times.max()))
-        counts = np.bincount(edited.channels)
+        self._edited.add_span(int(records.times.min()), int(records.times.max()))
+        counts = np.bincount(records.channels)
         for number in np.flatnonzero(counts).tolist():
             self._counts[number] = self._counts.get(number, 0) + int(counts[number])
-
-    # Insertions
 
     def _insert(self, compression: str | None) -> None:
         """Write the messages to add, before the first message of the file: as a chunk, or as records if it has none."""
@@ -376,15 +293,13 @@ class McapEditor:
             offsets.append(len(records))
             length = mcap.MESSAGE_HEAD.size - mcap.RECORD.size + len(data)
             records += mcap.MESSAGE_HEAD.pack(mcap.MESSAGE, length, number, 0, received, received) + data
-        edited = _Edited(
-            records, np.array(channels, np.uint16), np.array(times, np.uint64), np.array(offsets, np.uint64), True
-        )
+        numbers = (np.array(channels, np.uint16), np.array(times, np.uint64), np.array(offsets, np.uint64))
         if compression is None:
-            self._write(records)
+            self._out.write(records)
         else:
-            self._write_chunk(edited, compression, has_crc=True)
-            self._finish_chunk()
-        self._count(edited)
+            self._out.write_chunk(IndexedRecords(records, *numbers), compression, has_crc=True)
+            self._out.finish_chunk()
+        self._count(IndexedRecords(records, *numbers))
 
     def _channel_of(self, topic: str) -> tuple[int, bytes]:
         """Return the number of a channel for TFMessages on a topic, and the records that define it."""
@@ -413,18 +328,14 @@ class McapEditor:
         self._edited.new_topics.append(topic)
         return number, mcap.record(mcap.SCHEMA, schema) + mcap.record(mcap.CHANNEL, channel)
 
-    # Other records
-
     def _copy_other(self, file: BinaryIO, opcode: int, length: int) -> None:
-        start = self._end
+        self._out.begin_indexed()
         if opcode == mcap.METADATA:
             content = self._edit_metadata(self._content(file, length))
-            name, _ = mcap.read_text(content, 0)
-            self._write(mcap.record(opcode, content))
-            index = struct.pack("<QQ", start, self._end - start) + mcap.encoded_text(name)
-            self._add_index(mcap.METADATA_INDEX, index)
+            self._out.write(mcap.record(opcode, content))
+            self._out.end_indexed(mcap.METADATA_INDEX, after=mcap.encoded_text(mcap.read_text(content, 0)[0]))
             return
-        self._write(mcap.RECORD.pack(opcode, length))
+        self._out.write(mcap.RECORD.pack(opcode, length))
         beginning = b""
         left = length
         while left:
@@ -432,10 +343,10 @@ class McapEditor:
             if not part:
                 raise DamagedError("it is truncated inside a record")
             beginning = beginning or part
-            self._write(part)
+            self._out.write(part)
             left -= len(part)
         if opcode == mcap.ATTACHMENT:
-            self._index_attachment(beginning, start)
+            self._out.end_indexed(mcap.ATTACHMENT_INDEX, after=_attachment_facts(beginning))
 
     def _edit_metadata(self, content: bytes) -> bytes:
         """Return the content of a metadata record, in which rosbag2 repeats its metadata.yaml."""
@@ -454,60 +365,35 @@ class McapEditor:
             else mcap.encoded_text(name) + mcap.encoded_map({**values, "serialized_metadata": new})
         )
 
-    def _index_attachment(self, content: bytes, start: int) -> None:
-        try:
-            times = content[:16]
-            name, position = mcap.read_text(content, 16)
-            media_type, position = mcap.read_text(content, position)
-            (size,) = struct.unpack_from("<Q", content, position)
-        except (struct.error, ValueError):
-            raise DamagedError("an attachment is damaged") from None
-        index = struct.pack("<QQ", start, self._end - start) + times + struct.pack("<Q", size)
-        self._add_index(mcap.ATTACHMENT_INDEX, index + mcap.encoded_text(name) + mcap.encoded_text(media_type))
-
     def _channel_topic(self, number: int) -> str:
         return mcap.read_text(self._channels[number], 4)[0]
 
-    # End
-
-    def _write_end(self, has_crc: bool) -> None:
+    def _finish(self) -> None:
         for number, count in self._counts.items():
             topic = self._channel_topic(number)
             self._edited.counts[topic] = self._edited.counts.get(topic, 0) + count
             if number in self._routes:
                 self._routes[number].count(count)
-        end = struct.pack("<I", self._crc if has_crc else 0)
-        self._write(mcap.record(mcap.DATA_END, end))
-        start = self._end
-        first, last = self._edited.span or (0, 0)
+        self._out.finish(self._schemas.values(), self._channels.values(), self._statistics)
+
+    def _statistics(self, attachments: int, metadata: int, chunks: int) -> bytes:
+        """Return the content of the record of statistics."""
+        total, numbers = sum(self._counts.values()), (len(self._schemas), len(self._channels))
+        times = self._edited.span or (0, 0)
         counts = b"".join(struct.pack("<HQ", *pair) for pair in sorted(self._counts.items()))
-        sizes = [
-            len(self._indexes.get(opcode, ()))
-            for opcode in (mcap.ATTACHMENT_INDEX, mcap.METADATA_INDEX, mcap.CHUNK_INDEX)
-        ]
-        statistics = struct.pack(
-            "<QHIIIIQQ", sum(self._counts.values()), len(self._schemas), len(self._channels), *sizes, first, last
-        )
-        groups = {
-            mcap.SCHEMA: [mcap.record(mcap.SCHEMA, each) for each in self._schemas.values()],
-            mcap.CHANNEL: [mcap.record(mcap.CHANNEL, each) for each in self._channels.values()],
-            mcap.STATISTICS: [mcap.record(mcap.STATISTICS, statistics + struct.pack("<I", len(counts)) + counts)],
-            **{each: self._indexes[each] for each in sorted(self._indexes)},
-        }
-        summary, offsets = bytearray(), bytearray()
-        for opcode, records in groups.items():
-            if records:
-                group = b"".join(records)
-                offsets += mcap.record(
-                    mcap.SUMMARY_OFFSET, struct.pack("<BQQ", opcode, start + len(summary), len(group))
-                )
-                summary += group
-        footer = mcap.RECORD.pack(mcap.FOOTER, 20) + struct.pack("<QQ", start, start + len(summary))
-        checksum = zlib.crc32(summary + offsets + footer)
-        self._write(bytes(summary + offsets) + footer + struct.pack("<I", checksum) + MCAP.magic)
-        self._out.flush()
-        if self._target is not None:
-            os.fsync(self._out.fileno())
+        head = struct.pack("<QHIIIIQQ", total, *numbers, attachments, metadata, chunks, *times)
+        return head + struct.pack("<I", len(counts)) + counts
+
+
+def _attachment_facts(content: bytes) -> bytes:
+    """Return what the index repeats of an attachment."""
+    try:
+        name, position = mcap.read_text(content, 16)
+        media_type, position = mcap.read_text(content, position)
+        (size,) = struct.unpack_from("<Q", content, position)
+    except (struct.error, ValueError):
+        raise DamagedError("an attachment is damaged") from None
+    return content[:16] + struct.pack("<Q", size) + mcap.encoded_text(name) + mcap.encoded_text(media_type)
 
 
 class _Nowhere:
@@ -515,9 +401,6 @@ class _Nowhere:
 
     def write(self, data: bytes) -> int:
         return len(data)
-
-    def flush(self) -> None:
-        pass
 
 
 def _patched(
@@ -527,7 +410,7 @@ def _patched(
     times: NDArray[np.uint64],
     records: NDArray[np.uint64],
     kept: NDArray[np.bool_],
-) -> tuple[bytearray, NDArray[np.uint16], NDArray[np.uint64], NDArray[np.uint64]]:
+) -> IndexedRecords:
     """Return the records with replaced parts, and of each message that is kept its channel, time and new offset."""
     out, position = bytearray(), 0
     view = memoryview(data)
@@ -540,4 +423,5 @@ def _patched(
     moved = np.cumsum(np.fromiter((len(new) - (end - start) for start, end, new in patches), np.int64, len(patches)))
     before = np.searchsorted(starts, records[kept].astype(np.int64), side="left")
     shift = np.where(before > 0, moved[before - 1], 0)
-    return out, channels[kept], times[kept], (records[kept].astype(np.int64) + shift).astype(np.uint64)
+    offsets = (records[kept].astype(np.int64) + shift).astype(np.uint64)
+    return IndexedRecords(out, channels[kept], times[kept], offsets)

@@ -42,6 +42,7 @@ __all__ = [
     "Summary",
     "encoded_map",
     "encoded_text",
+    "has_data_crc",
     "read_chunk",
     "read_head",
     "read_map",
@@ -152,7 +153,7 @@ class Definitions:
 
 @dataclass
 class Summary:
-    """What the end of a file says about it."""
+    """What the end of a file contains about it."""
 
     definitions: Definitions = field(default_factory=Definitions)
     chunks: list[ChunkPlace] = field(default_factory=list)
@@ -164,6 +165,22 @@ def read_head(file: BinaryIO) -> tuple[int, int] | None:
     """Return the opcode and the length of the record at the position of a file; None at its end."""
     head = file.read(RECORD.size)
     return RECORD.unpack(head) if len(head) == RECORD.size else None
+
+
+def has_data_crc(file: BinaryIO, size: int) -> bool:
+    """Return whether the data section of a file has a checksum."""
+    tail_start = size - _FOOTER_RECORD.size - len(MCAP.magic)
+    file.seek(max(tail_start, 0))
+    tail = file.read(_FOOTER_RECORD.size)
+    if len(tail) < _FOOTER_RECORD.size:
+        return False
+    opcode, _, start, _, _ = _FOOTER_RECORD.unpack(tail)
+    end = (start or tail_start) - RECORD.size - 4
+    if opcode != FOOTER or not 0 < end < size:
+        return False
+    file.seek(end)
+    data_end = file.read(RECORD.size + 4)
+    return data_end[:1] == bytes([DATA_END]) and any(data_end[RECORD.size :])
 
 
 def read_summary(file: BinaryIO, size: int) -> Summary | None:
@@ -216,7 +233,7 @@ def read_chunk(content: bytes) -> Chunk:
         raise DamagedError("the header of a chunk is damaged") from None
     packed = memoryview(content)[position + 8 :]
     if len(packed) != length:
-        raise DamagedError("a chunk has another length than its header says")
+        raise DamagedError("a chunk does not have the length in its header")
     data = unpack(compression, packed, size)
     if len(data) != size or crc not in {0, zlib.crc32(data)}:
         raise DamagedError("a chunk is damaged: its length or checksum does not match")

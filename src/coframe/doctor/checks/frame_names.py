@@ -10,6 +10,7 @@ import numpy as np
 
 from coframe._output.formatting import count, join_quoted
 from coframe.doctor._finding import Finding, Severity
+from coframe.doctor._rules import rename_frame
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -45,6 +46,7 @@ def _slashes(observation: Observation) -> Iterator[Finding]:
             fix=f"Remove the slash where the name is set: {names[0].lstrip('/')!r}. tf2 rejects such names in lookups. "
             "The parameter frame_prefix is put in front of names unchanged and must end with the slash: 'robot1/'.",
             frames=frozenset(transforms.names[number].lstrip("/") for number in numbers),
+            repairs=("strip-slashes",),
             first_stamp=int(transforms.stamp[rows[0]]) if len(rows) else None,
             publishers=transforms.publishers_of(rows),
         )
@@ -75,6 +77,7 @@ def _near_duplicates(observation: Observation) -> Iterator[Finding]:
                 text=f"frame names that differ only in case, spaces or punctuation: {join_quoted(names)}",
                 fix=f"If they are meant to be one frame, use {names[0]!r} everywhere.",
                 frames=frozenset(names),
+                choices=tuple(rename_frame(old, new) for new in names for old in names if old != new),
             )
 
 
@@ -94,6 +97,7 @@ def _incomplete_prefix(observation: Observation) -> Iterator[Finding]:
                     fix="Set the prefix for all publishers of the robot (robot_state_publisher: "
                     f"frame_prefix:={prefix}; odometry: base_frame_id:={prefixed}), or for none.",
                     frames=frozenset({prefixed, plain}),
+                    choices=(rename_frame(plain, prefixed), rename_frame(prefixed, plain)),
                 )
                 return
 

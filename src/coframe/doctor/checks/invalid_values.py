@@ -24,6 +24,7 @@ __all__ = ["CODE", "find"]
 CODE = "TF019"
 # Quaternions computed in single precision deviate less.
 _ROUNDING = 1e-6
+_MAX_DROPPED = 0.5  # of the transforms of an edge that can be left out without a question
 _NORMALIZE = "normalize it before publishing: q / numpy.linalg.norm(q)"
 
 
@@ -101,6 +102,8 @@ def _kind(
             edge=(parent.lstrip("/"), child.lstrip("/")),
             first_stamp=int(transforms.stamp[own[0]]),
             publishers=transforms.publishers_of(own),
+            repairs=("drop-invalid",) if severity is Severity.ERROR and len(own) < _MAX_DROPPED * every else (),
+            choices=("drop-invalid",) if severity is Severity.ERROR and len(own) >= _MAX_DROPPED * every else (),
         )
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from coframe._output.formatting import join_quoted, times
 from coframe.doctor._edge import publishers_of
 from coframe.doctor._finding import Finding, Severity
+from coframe.doctor._rules import drop_edge
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -60,6 +61,7 @@ def _loops(observation: Observation) -> Iterator[Finding]:
             edge=loop[0].key,
             first_stamp=max(edge.first_stamp for edge in loop),
             publishers=publishers_of(loop),
+            choices=tuple(drop_edge(edge.key) for edge in loop[:_MAX_NAMES]),
         )
 
 
@@ -82,4 +84,5 @@ def _rejected_transforms(observation: Observation) -> Iterator[Finding]:
             frames=frozenset({parent.lstrip("/"), child.lstrip("/")} - {""}),
             first_stamp=int(transforms.stamp[rows[0]]),
             publishers=transforms.publishers_of(rows),
+            repairs=("drop-invalid",),
         )

@@ -29,4 +29,5 @@ def find(observation: Observation) -> Iterator[Finding]:
         fix="Record /tf_static too: `coframe record /tf /tf_static ...`; read a split recording as the whole folder, "
         "not one of its later files. With this recording, publish the static transforms during replay: "
         "`coframe static ...`, or start robot_state_publisher.",
+        choices=("set-static FILE",),
     )

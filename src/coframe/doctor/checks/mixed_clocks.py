@@ -9,11 +9,14 @@ from coframe._output.formatting import duration, join_names, seconds
 from coframe.analysis.clocks import SAME_CLOCK
 from coframe.doctor._edge import publishers_of
 from coframe.doctor._finding import Finding, Severity
+from coframe.doctor._rules import shift
+from coframe.doctor.observation import Sensor
 from coframe.time import HOUR, SECOND
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from coframe.doctor._edge import Edge
     from coframe.doctor.observation import Observation
 
 __all__ = ["CODE", "find"]
@@ -51,6 +54,7 @@ def _finding(observation: Observation, usual: str, usual_names: list[str], clock
     stamps = [edge.first_stamp for edge in edges] + [int(sensor.stamp[0]) for sensor in sensors]
     first = edges[0] if edges else None
     should_be_simulated = clock == "wall" and observation.clock is not None
+    repairs, choices = _repair(observation, usual, clock, [*edges, *sensors])
     return Finding(
         code=CODE,
         severity=Severity.ERROR,
@@ -70,7 +74,21 @@ def _finding(observation: Observation, usual: str, usual_names: list[str], clock
         frames=frozenset(frames),
         first_stamp=stamps[0],
         publishers=publishers_of(edges),
+        repairs=repairs,
+        choices=choices,
     )
+
+
+def _repair(
+    observation: Observation, usual: str, clock: str, wrong: list[Edge | Sensor]
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the rules that repair the stamps: with /clock, or by a number of hours; else shifts to choose from."""
+    if observation.clock is not None and {usual, clock} == {"wall", "simulated"}:
+        return (f"clock {'sim' if usual == 'simulated' else 'wall'}",), ()
+    named = [(one, one.topic if isinstance(one, Sensor) else one.name) for one in wrong]
+    offsets = [(one, observation.offset(name).offset) for one, name in named]
+    rules = tuple(shift(one.topic if isinstance(one, Sensor) else one.key, offset) for one, offset in offsets)
+    return (rules, ()) if all(_is_whole_hours(offset) for _, offset in offsets) else ((), rules)
 
 
 def _static(observation: Observation, usual: str) -> Iterator[Finding]:

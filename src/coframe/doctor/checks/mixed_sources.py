@@ -54,7 +54,8 @@ def find(observation: Observation) -> Iterator[Finding]:
         if _alternate(sensors, [np.full(len(sensor.stamp), number) for number, sensor in enumerate(sensors)]):
             found.add(topic)
             names = join_names(f"{sensor.frame!r} ({count(len(sensor.stamp), 'message')})" for sensor in sensors)
-            yield _finding(topic, f"the messages alternate between {len(sensors)} frames: {names}", nodes)
+            drops = tuple(f"drop-publisher {topic}@{sensor.frame}" for sensor in sensors)
+            yield _finding(topic, f"the messages alternate between {len(sensors)} frames: {names}", nodes, drops)
         elif len(nodes) > 1 and _alternate(sensors, [_nodes(sensor, nodes) for sensor in sensors]):
             found.add(topic)
             yield _finding(topic, f"the messages alternate between {len(nodes)} publishers: {join_names(nodes)}", nodes)
@@ -104,8 +105,8 @@ def _track_distance(points: NDArray[np.float64]) -> float:
     return distance if distance > max(_MIN_DISTANCE_RATIO * step, _MIN_DISTANCE) else 0.0
 
 
-def _finding(topic: str, text: str, publishers: tuple[str, ...] = ()) -> Finding:
+def _finding(topic: str, text: str, publishers: tuple[str, ...] = (), choices: tuple[str, ...] = ()) -> Finding:
     return Finding(
         code=CODE, severity=Severity.WARNING, text=f"{text}: the topic may have two sources", fix=_FIX, topic=topic,
-        publishers=publishers,
+        publishers=publishers, choices=choices,
     )  # fmt: skip

@@ -10,6 +10,7 @@ import numpy as np
 from coframe._output.formatting import join_names, times
 from coframe.doctor._edge import publishers_of
 from coframe.doctor._finding import Finding, Severity
+from coframe.doctor._rules import drop_edge
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -56,6 +57,7 @@ def _finding(child: str, edges: list[Edge]) -> Finding:
         frames=frozenset(edge.parent for edge in edges),
         first_stamp=max(edge.first_stamp for edge in edges),
         publishers=publishers_of(edges),
+        choices=tuple(drop_edge(edge.key) for edge in edges),
     )
 
 

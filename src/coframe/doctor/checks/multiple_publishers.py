@@ -10,6 +10,7 @@ import numpy as np
 
 from coframe.doctor._finding import Finding, Severity
 from coframe.doctor._flicker import alternation_cause, flicker
+from coframe.doctor._rules import drop_tracks
 from coframe.doctor.pose_mistakes import explain_either
 
 if TYPE_CHECKING:
@@ -79,6 +80,7 @@ def _unknown_publishers(edge: Edge) -> Iterator[Finding]:
             fix=f"On the running robot, `coframe doctor` names the publishers of {edge.name}: stop one of them.",
             edge=edge.key,
             first_stamp=int(edge.stamp[found.first]),
+            choices=drop_tracks(edge.key),
         )
 
 

@@ -11,6 +11,7 @@ from coframe.analysis.static_command import static_command
 from coframe.doctor._finding import Finding, Severity
 from coframe.doctor._mount_evidence import gravity_contradictions, points_contradictions
 from coframe.doctor._odometry_evidence import odometry_contradictions
+from coframe.doctor._rules import replace_mount
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -20,11 +21,14 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF029"
+# Radians. Data hardly shows whether the position of a mount without a rotation is wrong, so that users have to decide.
+_TURNED = 1e-3
 
 
 def find(observation: Observation) -> Iterator[Finding]:
     """Yield findings only where a usual mistake makes the transform agree with the other data."""
     for found in (*gravity_contradictions(observation), *points_contradictions(observation)):
+        rule = replace_mount(found.edge.child, np.round(found.pose, 9))
         command = static_command(*found.edge.key, np.round(found.pose, 9).tolist())
         yield Finding(
             code=CODE,
@@ -35,6 +39,8 @@ def find(observation: Observation) -> Iterator[Finding]:
             topic="",
             first_stamp=found.edge.first_stamp,
             publishers=found.edge.publishers,
+            repairs=(rule,) if found.edge.angle > _TURNED else (),
+            choices=(rule,) if found.edge.angle <= _TURNED else (),
         )
     for edge, text, fix in odometry_contradictions(observation):
         yield Finding(

@@ -9,6 +9,7 @@ import numpy as np
 
 from coframe._output.formatting import duration
 from coframe.doctor._finding import Finding, Severity
+from coframe.doctor._rules import drop_tracks
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -49,6 +50,8 @@ def _repeated_stamps(edge: Edge) -> Iterator[Finding]:
         edge=edge.key,
         first_stamp=int(edge.stamp[order[repeated[0]]]),
         publishers=edge.publishers,
+        repairs=() if differ else ("dedupe",),
+        choices=drop_tracks(edge.key) if differ else (),
     )
 
 

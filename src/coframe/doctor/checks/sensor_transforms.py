@@ -12,6 +12,7 @@ from coframe.analysis.missing_edges import BASE_FRAMES, estimator_advice, is_sen
 from coframe.analysis.similar_frames import similar_frames
 from coframe.analysis.static_command import static_command
 from coframe.doctor._finding import Finding, Severity
+from coframe.doctor._rules import rename_frame, set_static
 from coframe.doctor.observation import NEVER
 from coframe.time import MILLISECOND
 
@@ -49,6 +50,7 @@ def _unknown_frame(observation: Observation, frame: str, sensors: list[Sensor]) 
     similar = similar_frames(frame, observation.frames)
     publishers = tuple(dict.fromkeys(sensor.publisher for sensor in sensors if sensor.publisher))
     messages = sum(len(sensor.stamp) for sensor in sensors)
+    repairs = (rename_frame(*_misspelled(observation, frame, similar[0])),) if similar else ()
     return Finding(
         code=CODE,
         severity=Severity.WARNING,
@@ -60,7 +62,27 @@ def _unknown_frame(observation: Observation, frame: str, sensors: list[Sensor]) 
         frames=frozenset({frame}),
         first_stamp=int(sensors[0].stamp[0]) if len(sensors[0].stamp) else None,
         publishers=publishers,
+        repairs=repairs,
+        choices=() if similar else _mounts(observation, frame),
     )
+
+
+def _mounts(observation: Observation, frame: str) -> tuple[str, ...]:
+    """Return the form of the rule that mounts a sensor whose frame no transform contains."""
+    if not is_sensor_frame(frame):
+        return ()
+    bases = [name for name in observation.frames if name.rpartition("/")[2] in BASE_FRAMES]
+    return (set_static((bases or list(observation.frames) or ["base_link"])[-1], frame),)
+
+
+def _misspelled(observation: Observation, frame: str, similar: str) -> tuple[str, str]:
+    """Return which of two names is probably misspelled, and the other one.
+
+    The name of a link in a robot description is right, and then one with a usual ending.
+    """
+    described = [f'"{frame}"' in text and f'"{similar}"' not in text for text in observation.descriptions]
+    is_usual = frame.endswith(_USUAL_ENDINGS) and not similar.endswith(_USUAL_ENDINGS)
+    return (similar, frame) if is_usual or any(described) else (frame, similar)
 
 
 def _one_name(observation: Observation, frame: str, similar: str) -> str:
@@ -69,7 +91,7 @@ def _one_name(observation: Observation, frame: str, similar: str) -> str:
     Either of the two may be misspelled. A name with the usual ending is probably the right one.
     """
     in_messages = f"In the node of the sensor: msg.header.frame_id = {similar!r}"
-    if not frame.endswith(_USUAL_ENDINGS) or similar.endswith(_USUAL_ENDINGS):
+    if _misspelled(observation, frame, similar)[0] == frame:
         return in_messages
     nodes = sorted({node for edge in observation.edges if edge.child == similar for node in edge.publishers})
     publisher = f" ({join_names(nodes)})" if nodes else ""

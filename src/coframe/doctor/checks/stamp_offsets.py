@@ -9,6 +9,7 @@ import numpy as np
 
 from coframe._output.formatting import duration
 from coframe.doctor._finding import Finding, Severity
+from coframe.doctor._rules import shift
 from coframe.doctor.wrong_stamps import AHEAD, MIN_MESSAGES, is_ahead, is_ahead_by_design, is_behind
 from coframe.time import MILLISECOND
 
@@ -91,6 +92,7 @@ def _stamps_ahead(edge: Edge, lags: NDArray[np.int64], offset: ClockOffset) -> F
         edge=edge.key,
         first_stamp=int(edge.stamp[row]),
         publishers=edge.publishers,
+        choices=() if usual else (shift(edge.key, offset.offset),),
     )
 
 
@@ -107,4 +109,5 @@ def _stamps_behind(edge: Edge, lags: NDArray[np.int64], offset: ClockOffset) -> 
         edge=edge.key,
         first_stamp=edge.first_stamp,
         publishers=edge.publishers,
+        choices=(shift(edge.key, offset.offset),),
     )

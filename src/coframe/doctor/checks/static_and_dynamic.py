@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 from coframe._output.formatting import times
 from coframe.doctor._edge import publishers_of
 from coframe.doctor._finding import Finding, Severity
+from coframe.doctor._rules import drop_edge
 from coframe.doctor.pose_mistakes import explain_either
+from coframe.frame_names import TF_STATIC_TOPIC, TF_TOPIC
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -37,6 +39,7 @@ def find(observation: Observation) -> Iterator[Finding]:
                 edge=edge.key,
                 first_stamp=edge.first_stamp,
                 publishers=publishers_of([other, edge]),
+                choices=(drop_edge(edge.key, TF_STATIC_TOPIC), drop_edge(edge.key, TF_TOPIC)),
             )
 
 

@@ -8,13 +8,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe import quaternion
 from coframe.analysis.static_command import static_command
 from coframe.doctor._camera_axes import is_optical, wrong_axes
 from coframe.doctor._finding import Finding, Severity
+from coframe.doctor._rules import replace_mount
 from coframe.doctor.pose_mistakes import angle_triples, described_rotation, inverted
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+    from numpy.typing import NDArray
 
     from coframe.doctor._edge import Edge
     from coframe.doctor.observation import Observation
@@ -67,8 +71,16 @@ def _degrees(edge: Edge) -> Iterator[Finding]:
                         f"rotated by {degrees(angle) % 360:.1f} degrees about {axis}, which is {name} = {number} "
                         f"radians: was {number} degrees intended?",
                         f"Use radians: --{name} {number * pi / 180:.6f}; in code math.radians({number}).",
+                        pose=_with_angle(edge, triple, "xyz".index(axis), number * pi / 180),
                     )
                     return
+
+
+def _with_angle(edge: Edge, angles: NDArray[np.float64], axis: int, angle: float) -> NDArray[np.float64]:
+    """Return the pose of an edge with another angle about one axis; `angles` are roll, pitch and yaw."""
+    angles = np.array(angles, dtype=np.float64)
+    angles[axis] = angle
+    return np.concatenate([edge.values[-1, :3], quaternion.from_rpy(angles)])
 
 
 def _other_units(edge: Edge, mounts: list[Edge]) -> Iterator[Finding]:
@@ -86,6 +98,8 @@ def _other_units(edge: Edge, mounts: list[Edge]) -> Iterator[Finding]:
         edge,
         f"the frames are {edge.length:.4g} m apart: was {intended} intended?",
         f"Use meters: --x {x:.6g} --y {y:.6g} --z {z:.6g}" + (f" (for {units[0][0]})." if len(units) > 1 else "."),
+        pose=np.concatenate([edge.values[-1, :3] / units[0][1], edge.values[-1, 3:]]),
+        is_certain=len(units) == 1,
     )
 
 
@@ -110,7 +124,8 @@ def _optical(observation: Observation, edge: Edge) -> Iterator[Finding]:
     if found is not None:
         turned = described_rotation(found.pose[3:])
         command = static_command(*found.edge.key, found.pose.tolist())
-        yield _finding(found.edge, found.text, f"{found.fix} The rotation is {turned}: `{command}`.".lstrip())
+        fix = f"{found.fix} The rotation is {turned}: `{command}`.".lstrip()
+        yield _finding(found.edge, found.text, fix, pose=found.pose)
 
 
 def _below_ground(observation: Observation) -> Iterator[Finding]:
@@ -147,10 +162,21 @@ def _under(mount: Edge) -> Iterator[Finding]:
         "Check the direction of the transform (the translation is the position of the child in the parent) and the "
         f"sign of z (up is positive), for example `{static_command(*mount.key, np.round(right, 9).tolist())}`.",
         Severity.NOTE,
+        pose=np.round(right, 9),
+        is_certain=False,
     )
 
 
-def _finding(edge: Edge, text: str, fix: str, severity: Severity = Severity.WARNING) -> Finding:
+def _finding(
+    edge: Edge,
+    text: str,
+    fix: str,
+    severity: Severity = Severity.WARNING,
+    *,
+    pose: NDArray[np.float64] | None = None,
+    is_certain: bool = True,
+) -> Finding:
+    rules = () if pose is None else (replace_mount(edge.child, pose),)
     return Finding(
         code=CODE,
         severity=severity,
@@ -159,4 +185,6 @@ def _finding(edge: Edge, text: str, fix: str, severity: Severity = Severity.WARN
         edge=edge.key,
         first_stamp=edge.first_stamp,
         publishers=edge.publishers,
+        repairs=rules if is_certain else (),
+        choices=() if is_certain else rules,
     )

@@ -67,5 +67,7 @@ def _finding(finding: Finding) -> dict[str, Any]:
         "publishers": list(finding.publishers),
         "why": finding.why,
         "fix": finding.fix,
+        "repairs": list(finding.repairs),
+        "choices": list(finding.choices),
         "explains": [_finding(effect) for effect in finding.explains],
     }

@@ -23,7 +23,7 @@ _MAX_EDGES = 1000
 
 
 class Dedupe(Rule):
-    """``dedupe``: messages with a stamp that repeat an earlier one on their topic, and transforms likewise.
+    """``dedupe``: messages with a stamp, and transforms, that repeat an earlier one on their topic.
 
     Messages without a stamp and static transforms stay: they are repeated on purpose. A transform with the stamp of
     an earlier one but another pose stays as well, because which of them is right is not known.

@@ -33,7 +33,7 @@ _MIN_RATIO = 2.0  # distance of the two tracks to the usual step on one
 
 
 class DropPublisher(Rule):
-    """``drop-publisher``: recordings rarely name publishers, so that what they sent tells them apart.
+    """``drop-publisher``: recordings rarely name publishers, which are distinguished by what they sent.
 
     - ``odom->base_link``: all transforms with this parent and child, as when two publishers disagree on the parent;
     - ``odom->base_link@/tf``: only those on one topic, as when a transform is both static and dynamic;
