@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Measure what an idle node costs: `python -m benchmarks.idle KIND QUANTITY`.
 
-KIND is `node` (rclpy with a TransformListener, spun by `spin`), `loop` (the same, spun by `spin_once`), or
-`participant` (a bare DDS participant). QUANTITY is `start` (nanoseconds until it exists), `memory` (bytes of the
-process), `per_node` (bytes of each further node of the process), `cpu` (percent of one core) or `wakes` (how often its
-threads wake per second).
+KIND is `node` (rclpy with a TransformListener, spun by `spin`), `loop` (spun by `spin_once`), `plain` (without a
+listener, spun by `spin`), or `participant` (a bare DDS participant). QUANTITY is `start` (nanoseconds until it exists),
+`start_cpu` (the same as processor time), `memory` (bytes of the process), `per_node` (bytes of each further node of the
+process), `cpu` (percent of one core) or `wakes` (how often its threads wake per second).
 """
 
 import os
@@ -71,18 +71,20 @@ def measure(kind: str) -> tuple[float, float]:
     watcher = threading.Thread(target=watch)
     watcher.start()
     if kind != "participant":
-        spin(watcher, in_a_loop=kind == "loop")
+        spin(watcher, kind)
     watcher.join()
     return figures[0]
 
 
-def spin(watcher: threading.Thread, *, in_a_loop: bool) -> None:
+def spin(watcher: threading.Thread, kind: str) -> None:
     import rclpy
-    import tf2_ros
 
-    node = rclpy.create_node("listener")
-    listener = tf2_ros.TransformListener(tf2_ros.Buffer(), node)
-    if in_a_loop:
+    node, listener = rclpy.create_node("listener"), None
+    if kind != "plain":
+        import tf2_ros
+
+        listener = tf2_ros.TransformListener(tf2_ros.Buffer(), node)
+    if kind == "loop":
         while watcher.is_alive():
             rclpy.spin_once(node, timeout_sec=0.5)
     else:
@@ -101,11 +103,13 @@ def main(kind: str, quantity: str) -> float:
         import cyclonedds.domain  # noqa: F401 - the import is not part of the start
     else:
         import rclpy  # noqa: F401
-    begin = time.monotonic_ns()
+    begin, spent = time.monotonic_ns(), time.process_time_ns()
     keep = start_participant() if kind == "participant" else start_node()
-    started = time.monotonic_ns() - begin
+    started, spent = time.monotonic_ns() - begin, time.process_time_ns() - spent
     if quantity == "start":
         return started
+    if quantity == "start_cpu":
+        return spent
     if quantity == "memory":
         return memory()
     if quantity == "per_node":

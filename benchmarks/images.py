@@ -36,6 +36,8 @@ NS = 1_000_000_000
 TOPIC = "/large"
 PATIENCE = 60.0
 SETTLING = 0.5
+QUIET = 3.0
+"""When no message has arrived for this time, the missing ones are lost."""
 SLOTS = 4
 """Messages that fit into the bare shared memory."""
 
@@ -187,10 +189,10 @@ def measure(contender: str, name: str) -> tuple[float, ...]:
         print("the first message", file=sys.stderr, flush=True)
         assert sender.stdout
         sent = float(sender.stdout.readline() or "nan")
-        end, seen = time.monotonic() + SETTLING, 0
-        while time.monotonic() < end:  # until no message has arrived for some time
+        end, seen = time.monotonic() + QUIET, 0
+        while time.monotonic() < end and seen < WARM_UP + kind.messages:
             if len(receiver.latencies) != seen:
-                seen, end = len(receiver.latencies), time.monotonic() + 2 * SETTLING
+                seen, end = len(receiver.latencies), time.monotonic() + QUIET
             time.sleep(0.02)
         measured = receiver.latencies[WARM_UP:]
         received = (time.process_time_ns() - receiver.spent) / max(len(measured), 1)

@@ -62,8 +62,8 @@ ROWS = [
         *(LISTENER, "cpu", "coframe", "3"),
         real=(LISTENER, "cpu", "subscription", "3", sys.executable),
     ),
-    *rows("Fast DDS: rclpy.init() and a node", nanoseconds, IDLE, "node", "start"),
-    *rows("Fast DDS: idle node with a TransformListener, CPU of one core", percent, IDLE, "node", "cpu"),
+    *rows("Fast DDS: rclpy.init() and a node, processor time", nanoseconds, IDLE, "node", "start_cpu"),
+    *rows("Fast DDS: idle node, spin(), CPU of one core", percent, IDLE, "plain", "cpu"),
     *rows("Fast DDS: memory of a process with a node", megabytes, IDLE, "node", "memory"),
     *rows("Fast DDS: memory of a further node of a process", megabytes, IDLE, "node", "per_node"),
     *rows(

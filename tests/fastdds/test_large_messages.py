@@ -210,6 +210,19 @@ def test_a_writer_that_is_closed_at_once_is_read(domain: Domain, eventually) -> 
     assert blocks() == 0
 
 
+def test_a_message_is_taken_although_another_writer_has_left_before(domain: Domain, eventually) -> None:
+    """Fast DDS reports that in the queue of messages. Subscriptions of rclpy take one message at a time."""
+    leaving, second, reader = domain.writer(QoS(depth=10)), domain.writer(QoS(depth=10)), domain.reader(QoS(depth=10))
+    eventually(lambda: leaving.matched and second.matched and reader.matched == 2)
+    leaving.write(message(1, 100))
+    assert receive(reader, 1, eventually) == [message(1, 100)]
+    leaving.close()
+    eventually(lambda: reader.matched == 1)
+    second.write(message(2, 100))
+    assert second.wait_for_acks(10_000_000_000)
+    assert [data for data, _, _ in reader.take(1)] == [message(2, 100)]
+
+
 @pytest.mark.parametrize(
     "reference",
     [

@@ -36,6 +36,13 @@ Batch::Batch(dds::DataReader& reader, BlockMap& blocks, Counter& ignored, std::u
   }
 }
 
+bool Batch::has_messages() const {
+  for (int i = 0; i < infos_.length(); ++i) {
+    if (infos_[i].valid_data) return true;
+  }
+  return false;
+}
+
 DataReader::DataReader(std::shared_ptr<Participant> participant, std::string topic, std::string type, void* on_change)
     : ignored_(participant->ignored_of(topic)),
       participant_(std::move(participant)),
@@ -141,7 +148,9 @@ Reader::Taken::Taken(Reader& reader, std::uint32_t limit) : access_(reader) {
   if (native == nullptr) return;
   if (reader.blocks_.failed()) reader.withdraw_blocks(*native);
   reader.pending_ = false;
-  batch_.emplace(*native, reader.blocks_, *reader.ignored_, limit);
+  do {
+    batch_.emplace(*native, reader.blocks_, *reader.ignored_, limit);
+  } while (!batch_->empty() && !batch_->has_messages());
   if (batch_->full()) reader.pending_ = true;
   if (batch_->empty()) reader.blocks_.queue_is_empty();
 }
@@ -155,10 +164,11 @@ Tap::Tap(std::shared_ptr<Participant> participant, std::string topic, std::strin
 void Tap::on_data(dds::DataReader& reader) {
   const std::int64_t arrived = now();
   const std::lock_guard lock(mutex_);
-  while (true) {
-    Batch batch(reader, blocks_, *ignored_, Batch::kMaxMessages);
-    if (batch.empty()) break;
+  bool may_have_more = true;
+  while (may_have_more) {
+    const Batch batch(reader, blocks_, *ignored_, Batch::kMaxMessages);
     batch.each([&](const Message& message) { store(message, arrived); });
+    may_have_more = batch.full();
   }
   blocks_.queue_is_empty();
 }
@@ -196,12 +206,13 @@ TfReader::TfReader(std::shared_ptr<Participant> participant, std::string topic, 
 }
 
 void TfReader::on_data(dds::DataReader& reader) {
-  while (true) {
-    Batch batch(reader, blocks_, *ignored_, Batch::kMaxMessages);
-    if (batch.empty()) return;
+  bool may_have_more = true;
+  while (may_have_more) {
+    const Batch batch(reader, blocks_, *ignored_, Batch::kMaxMessages);
     batch.each([&](const Message& message) {
       core->add_to_store(store_, message.writer, message.bytes.data(), message.bytes.size());
     });
+    may_have_more = batch.full();
   }
 }
 

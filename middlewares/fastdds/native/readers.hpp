@@ -38,8 +38,10 @@ class Batch {
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
 
-  // Whether there was a message, even if it has no bytes.
+  // Whether nothing was waiting.
   bool empty() const { return infos_.length() == 0; }
+  // Whether there are messages. Fast DDS also reports writers that have left, without a message.
+  bool has_messages() const;
   // Whether more messages may be waiting.
   bool full() const { return static_cast<std::uint32_t>(infos_.length()) == limit_; }
 

@@ -18,6 +18,18 @@ constexpr std::size_t kHeaderSize = 4;
 constexpr std::size_t kMinBlockSize = 64'000;           // larger messages do not fit into one packet
 constexpr std::int64_t kClosingPatience = 200'000'000;  // nanoseconds
 
+// Readers learn from heartbeats which messages they have missed. They are sent as long as acknowledgements are
+// outstanding; by default every 3 s, when publishers of transforms no longer keep the messages.
+void set_heartbeats(dds::DataWriterQos& qos) {
+  constexpr std::int64_t kPeriod = 20'000'000;  // nanoseconds
+  auto& times = qos.reliable_writer_qos().times;
+#if COFRAME_FASTDDS_3
+  times.heartbeat_period = to_duration(kPeriod);
+#else
+  times.heartbeatPeriod = to_duration(kPeriod);
+#endif
+}
+
 dds::DataWriterQos make_qos(const Participant& participant, dds::Publisher& publisher, const std::string& topic,
                             const Qos& qos, const std::string& user_data) {
   dds::DataWriterQos made = publisher.get_default_datawriter_qos();
@@ -28,6 +40,7 @@ dds::DataWriterQos make_qos(const Participant& participant, dds::Publisher& publ
     made.publish_mode().kind =
         participant.options().asynchronous ? dds::ASYNCHRONOUS_PUBLISH_MODE : dds::SYNCHRONOUS_PUBLISH_MODE;
   }
+  if (!from_profile) set_heartbeats(made);
   made.lifespan().duration = to_duration(qos.lifespan_ns);
   return made;
 }
