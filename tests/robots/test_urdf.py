@@ -227,6 +227,17 @@ def test_quaternions_are_read_from_version_1_1_on(version, rpy, warning):
     assert robot.warnings == (() if warning is None else (warning,))
 
 
+@pytest.mark.parametrize(("version", "expected"), [("1.1", (None, None, None)), ("1.2", (2.0, 3.0, 4.0))])
+def test_limits_of_acceleration_and_jerk_are_read_from_version_1_2_on(version, expected):
+    limit = "<limit lower='0' upper='1' effort='1' velocity='1' acceleration='2' deceleration='3' jerk='4'/>"
+    robot = parse_urdf(with_version(version, joint("ab", "a", "b", limit), TREE[1]))
+    limits = robot.joints["ab"].limits
+    assert (limits.acceleration, limits.deceleration, limits.jerk) == expected
+    warning = 'line 5: {} is ignored, because it needs <robot version="1.2">'
+    ignored = ("acceleration", "deceleration", "jerk") if version == "1.1" else ()
+    assert robot.warnings == tuple(warning.format(name) for name in ignored)
+
+
 def test_a_zero_quaternion_is_no_rotation():
     robot = parse_urdf(with_version("1.1", joint("ab", "a", "b", "<origin quat_xyzw='0 0 0 0'/>"), TREE[1]))
     assert robot.joints["ab"].origin.rpy.tolist() == [0, 0, 0]

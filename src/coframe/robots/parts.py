@@ -143,9 +143,10 @@ class Link:
 
 @dataclass(frozen=True)
 class JointLimits:
-    """The limits of a joint, in rad, rad/s and Nm or in m, m/s and N; None for limits that are not given.
+    """The limits of a joint; None for limits that are not given.
 
-    The soft limits belong to a safety controller, which stops the joint before the hard limits.
+    Positions are in rad or m, efforts in Nm or N, and times in seconds. The soft limits belong to a safety controller,
+    which stops the joint before the hard limits. The acceleration, deceleration and jerk are limits of URDF 1.2.
     """
 
     lower: float | None = None
@@ -154,6 +155,9 @@ class JointLimits:
     velocity: float | None = None
     soft_lower: float | None = None
     soft_upper: float | None = None
+    acceleration: float | None = None
+    deceleration: float | None = None
+    jerk: float | None = None
 
 
 @dataclass(frozen=True)

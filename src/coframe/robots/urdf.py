@@ -26,7 +26,11 @@ _JOINT_TYPES: tuple[JointType, ...] = get_args(JointType)
 _NEEDS_LIMITS = ("revolute", "prismatic")
 _VERSION = re.compile(r"\s*(\d{1,9})\.(\d{1,9})\s*", re.ASCII)
 _NEWEST_VERSION = (1, 2)
-_FIRST_WITH_QUATERNIONS = (1, 1)
+# The attributes that versions after 1.0 have added, by element.
+_ADDED_ATTRIBUTES = {
+    "origin": {"quat_xyzw": (1, 1)},
+    "limit": dict.fromkeys(("acceleration", "deceleration", "jerk"), (1, 2)),
+}
 
 
 def parse_urdf(text: str | bytes) -> Robot:
@@ -85,8 +89,7 @@ def _robot(read: _document.Document) -> Robot:
     for element in root.children:
         if element.tag.startswith("xacro:"):
             element.warn(f"<{element.tag}> is xacro, not URDF, and has no effect. {_XACRO_HINT}")
-    if _version(root) < _FIRST_WITH_QUATERNIONS:
-        _ignore_quaternions(root)
+    _ignore_newer(root, _version(root))
     materials = Materials(root)
     parts = _named_elements(root, "link")
     if not parts:
@@ -119,14 +122,15 @@ def _version(root: Element) -> tuple[int, int]:
     return version
 
 
-def _ignore_quaternions(root: Element) -> None:
-    """Remove `quat_xyzw` from all elements, as ROS ignores it in documents of version 1.0."""
+def _ignore_newer(root: Element, version: tuple[int, int]) -> None:
+    """Remove the attributes that newer versions have added from all elements, as ROS ignores them."""
     pending = [root]
     while pending:
         element = pending.pop()
         pending += element.children
-        if element.tag == "origin" and element.attributes.pop("quat_xyzw", None) is not None:
-            element.warn('quat_xyzw is ignored, because it needs <robot version="1.1">')
+        for attribute, first in _ADDED_ATTRIBUTES.get(element.tag, {}).items():
+            if version < first and element.attributes.pop(attribute, None) is not None:
+                element.warn(f'{attribute} is ignored, because it needs <robot version="{first[0]}.{first[1]}">')
 
 
 def _named_elements(root: Element, tag: str) -> dict[str, Element]:
@@ -206,7 +210,8 @@ def _limits(joint: Element, name: str, kind: JointType) -> JointLimits | None:
         if lower > upper:
             element.fail(f"joint {name!r} has the lower limit {lower:g} above the upper limit {upper:g}")
     soft_lower, soft_upper = (_limit_value(safety, part) for part in ("soft_lower_limit", "soft_upper_limit"))
-    return JointLimits(lower, upper, effort, velocity, soft_lower, soft_upper)
+    rates = (_limit_value(element, part) for part in ("acceleration", "deceleration", "jerk"))
+    return JointLimits(lower, upper, effort, velocity, soft_lower, soft_upper, *rates)
 
 
 def _limit_value(element: Element | None, attribute: str, *, required: bool = False) -> float | None:

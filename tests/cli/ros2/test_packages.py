@@ -49,7 +49,7 @@ def test_the_report_shows_the_graph(run):
     assert any(line.startswith("Python ") for line in lines)
 
 
-@pytest.mark.parametrize("command", ["component", "control", "trace", "security", "multicast", "test", "plugin"])
+@pytest.mark.parametrize("command", ["control", "trace", "security", "multicast", "plugin"])
 def test_every_absent_command_has_a_sentence(command, monkeypatch):
     monkeypatch.setattr(sys, "argv", ["ros2", command, "list"])
     monkeypatch.setattr(executable, "real_executable", lambda _name: None)
