@@ -3,12 +3,14 @@
 
 import signal
 import threading
+import time
 
 import pytest
 
 import rclpy
 from example_interfaces.action import Fibonacci
 from geometry_msgs.msg import PointStamped, Pose, PoseArray
+from rclpy._content_filter import ContentFilter
 from rclpy.action import ActionClient, ActionServer
 from rclpy.clock import ClockType
 from rclpy.context import Context
@@ -141,7 +143,6 @@ def test_content_filters_read_elements_of_arrays_and_change(node):
     with pytest.raises(RCLError, match="the subscription has none"):
         subscription.get_content_filter()
     subscription.set_content_filter("poses[1].position.x = %0", ["5"])
-    from rclpy._content_filter import ContentFilter
 
     accepts = ContentFilter(PoseArray, "poses[1].position.x = %0", ["5"]).accepts
     poses = PoseArray(poses=[Pose(), Pose()])
@@ -249,3 +250,47 @@ def test_call_without_a_response_raises_from_kilted_on(node, monkeypatch):
     monkeypatch.setattr("rclpy.client.since", lambda _: True)
     with pytest.raises(TimeoutError, match=r"no response from the service '/reset' within 0\.05 s"):
         node.create_client(Trigger, "reset").call(Trigger.Request(), timeout_sec=0.05)
+
+
+@pytest.mark.parametrize(
+    ("text", "pattern", "is_match"),
+    [
+        ("arm_left", "arm%", True),
+        ("arm_left", "%left", True),
+        ("arm_left", "a%_%t", True),
+        ("arm", "a_m", True),
+        ("arm", "arm%arm", False),
+        ("armarm", "arm%arm", True),
+        ("a", "a%a", False),
+        ("", "%", True),
+        ("x\ny", "x_y", True),
+        ("a.b", "a?b", True),
+        ("aXb", "a.b", False),
+        ("abcabd", "%ab%d", True),
+        ("a" * 20_000, "%a" * 100 + "b", False),
+    ],
+)
+def test_patterns_of_content_filters(text, pattern, is_match):
+    content_filter = ContentFilter(String, "data LIKE %0", [f"'{pattern}'"])
+    begin = time.process_time()
+    assert content_filter.accepts(String(data=text)) is is_match
+    assert time.process_time() - begin < 2.0
+
+
+@pytest.mark.parametrize(
+    ("expression", "parameters", "error", "text"),
+    [
+        ("(" * 9000, [], RCLError, "more than 50 nested conditions"),
+        ("data = '" + "a" * 20_000 + "'", [], RCLError, "more than 10000 characters"),
+        ("data = %0", ["1" * 20_000], RCLError, "more than 10000 characters"),
+        ("data = " + "9" * 5000, [], RCLError, "a number of more than 100 characters"),
+        ("data[" + "9" * 5000 + "] = 1", [], RCLError, "not a field"),
+        ("data = %0", [3], TypeError, "must be strings, got 3"),
+        (None, [], TypeError, "must be strings, got None"),
+        (b"data = 1", [], TypeError, "must be strings, got b'data = 1'"),
+    ],
+)
+def test_hostile_content_filters(expression, parameters, error, text):
+    with pytest.raises(error, match=text) as caught:
+        ContentFilter(String, expression, parameters)
+    assert len(str(caught.value)) < 400

@@ -12,6 +12,7 @@ A condition is compiled to nested functions. Grammar::
 
 from __future__ import annotations
 
+import functools
 import operator
 import re
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
@@ -31,6 +32,8 @@ __all__ = ["ContentFilter"]
 MAX_EXPRESSION: Final = 10_000  # characters
 MAX_PARAMETERS: Final = 100  # as in DDS
 _MAX_DEPTH: Final = 50  # of parentheses
+_MAX_SHOWN: Final = 100  # characters of an expression in an error message
+_MAX_DIGITS: Final = 100  # characters of a number
 
 _TOKEN = re.compile(
     r"""\s*(?:
@@ -42,7 +45,7 @@ _TOKEN = re.compile(
     )""",
     re.VERBOSE,
 )
-_INDEX = re.compile(r"(\w+)((?:\[\d+\])*)")
+_INDEX = re.compile(r"(\w+)((?:\[\d{1,10}\])*)")
 _OPERATORS: Final = {
     "=": operator.eq,
     "<>": operator.ne,
@@ -70,13 +73,20 @@ class ContentFilter:
 
     Raises:
         RCLError: The condition is invalid, or refers to a field that does not exist.
+        TypeError: The expression or a parameter is not a string.
     """
 
     def __init__(self, message_class: type[Any], expression: str, parameters: Sequence[str]) -> None:
         self.expression = expression
         self.parameters = list(parameters)
-        if len(expression) > MAX_EXPRESSION or len(self.parameters) > MAX_PARAMETERS:
-            raise _error(expression, f"has more than {MAX_EXPRESSION} characters or {MAX_PARAMETERS} parameters")
+        for text in (expression, *self.parameters):
+            if not isinstance(text, str):
+                raise TypeError(
+                    f"The expression and the parameters of a content filter must be strings, got {text!r:.60}."
+                )
+        if len(self.parameters) > MAX_PARAMETERS or max(map(len, (expression, *self.parameters))) > MAX_EXPRESSION:
+            limits = f"{MAX_PARAMETERS} parameters, or it or a parameter has more than {MAX_EXPRESSION} characters"
+            raise _error(expression, f"has more than {limits}")
         self._accepts = _Parser(message_class, expression, self.parameters).parse() if expression else None
 
     def accepts(self, message: Any) -> bool:
@@ -101,7 +111,7 @@ class _Parser:
     def parse(self) -> Condition:
         condition = self._condition()
         if self._position < len(self._tokens):
-            raise _error(self._expression, f"has {self._tokens[self._position].text!r} after its end")
+            raise _error(self._expression, f"has {self._tokens[self._position].text[:_MAX_SHOWN]!r} after its end")
         return condition
 
     def _split(self) -> list[_Token]:
@@ -172,7 +182,7 @@ class _Parser:
             return lambda message: _is_like(left(message), pattern(message)) != is_negated
         symbol = self._peek()
         if is_negated or not self._takes(*_OPERATORS):
-            raise _error(self._expression, f"has {symbol!r} in place of a comparison such as '='")
+            raise _error(self._expression, f"has {symbol[:_MAX_SHOWN]!r} in place of a comparison such as '='")
         compare, right = _OPERATORS[symbol], self._value()
         return lambda message: bool(compare(left(message), right(message)))
 
@@ -204,6 +214,8 @@ class _Parser:
             text = token.text[1:-1]
             return lambda _: text
         if token.kind == "number":
+            if len(token.text) > _MAX_DIGITS:
+                raise _error(self._expression, f"has a number of more than {_MAX_DIGITS} characters")
             is_hexadecimal = "x" in token.text.lower()
             is_whole = token.text.lstrip("+-").isdigit()
             number = int(token.text, 16) if is_hexadecimal else int(token.text) if is_whole else float(token.text)
@@ -211,7 +223,7 @@ class _Parser:
         if token.text in ("TRUE", "FALSE"):
             is_true = token.text == "TRUE"
             return lambda _: is_true
-        raise _error(self._expression, f"has {token.text!r} where a value is expected")
+        raise _error(self._expression, f"has {token.text[:_MAX_SHOWN]!r} where a value is expected")
 
     def _field(self, path: str) -> Value:
         """Return a function that reads a field such as ``poses[0].position.x``."""
@@ -221,11 +233,15 @@ class _Parser:
             match = _INDEX.fullmatch(part)
             types = {} if cls is None else dict(zip(cls.get_fields_and_field_types(), cls.SLOT_TYPES, strict=True))
             if match is None or match[1] not in types:
-                raise _error(self._expression, f"refers to {path!r}, which is not a field of {self._class.ROS_TYPE}")
+                raise _error(
+                    self._expression, f"refers to {path[:_MAX_SHOWN]!r}, which is not a field of {self._class.ROS_TYPE}"
+                )
             type_, indexes = types[match[1]], [int(text) for text in re.findall(r"\d+", match[2])]
             for index in indexes:
                 if not isinstance(type_, AbstractNestedType) or (isinstance(type_, Array) and index >= type_.size):
-                    raise _error(self._expression, f"refers to {path!r}, which is not an element of an array")
+                    raise _error(
+                        self._expression, f"refers to {path[:_MAX_SHOWN]!r}, which is not an element of an array"
+                    )
                 type_ = type_.value_type
             cls = class_of(type_) if isinstance(type_, NamespacedType) else None
             steps.append((match[1], indexes))
@@ -242,11 +258,34 @@ class _Parser:
 
 
 def _is_like(text: Any, pattern: Any) -> bool:
-    """Return whether a text matches a pattern, in which `%` and `*` are any text, `_` and `?` one character."""
-    wildcards = {"%": ".*", "*": ".*", "_": ".", "?": "."}
-    expression = "".join(wildcards.get(character, re.escape(character)) for character in str(pattern))
-    return re.fullmatch(expression, str(text), re.DOTALL) is not None
+    """Return whether a text matches a pattern, in which `%` and `*` are any text, `_` and `?` one character.
+
+    Each part between two `%` takes the first place where it fits, so that no pattern makes the search go back.
+    """
+    text = str(text)
+    (first, size), *others = _parts_of(str(pattern))
+    if not others:
+        return first.fullmatch(text) is not None
+    if first.match(text) is None:
+        return False
+    *middle, (last, last_size) = others
+    position, end = size, len(text) - last_size
+    for part, _ in middle:
+        found = part.search(text, position, max(end, position))
+        if found is None:
+            return False
+        position = found.end()
+    return position <= end and last.match(text, end) is not None
+
+
+@functools.lru_cache(maxsize=128)
+def _parts_of(pattern: str) -> list[tuple[re.Pattern[str], int]]:
+    """Return the parts of a pattern between `%`, and the number of characters that each of them matches."""
+    parts = re.split("[%*]", pattern)
+    expressions = ("".join("." if each in "_?" else re.escape(each) for each in part) for part in parts)
+    return [(re.compile(each, re.DOTALL), len(part)) for each, part in zip(expressions, parts, strict=True)]
 
 
 def _error(expression: str, problem: str) -> RCLError:
-    return RCLError(f"the content filter {expression[:200]!r} {problem}")
+    shown = expression if len(expression) <= _MAX_SHOWN else f"{expression[:_MAX_SHOWN]}..."
+    return RCLError(f"the content filter {shown!r} {problem}")
