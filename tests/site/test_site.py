@@ -35,6 +35,9 @@ TASKS = {
     "quaternion order": ("concepts/conventions.html", "quaternion-order"),
     "check a bag in CI": ("how-to/ci.html", ""),
     "communicate with real ROS 2": ("how-to/beside-ros2.html", ""),
+    "which distribution": ("reference/distributions.html", ""),
+    "coming from Humble": ("how-to/coming-from-tf2.html", "coming-from-humble"),
+    "tests of launched systems": ("how-to/launch.html", "tests-of-launched-systems"),
     "TF003": ("reference/doctor-codes.html", "tf003"),
 }
 
