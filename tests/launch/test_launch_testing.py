@@ -131,6 +131,32 @@ def test_a_launch_can_be_kept_alive(execute, tmp_path):
     assert code == 0, output
 
 
+@pytest.mark.parametrize(
+    "handler",
+    [
+        "OnProcessStart(target_action=process, on_start=[launch_testing.actions.ReadyToTest()])",
+        (
+            "launch_testing.event_handlers.StdoutReadyListener(target_action=process, ready_txt='up', "
+            "actions=[launch_testing.actions.ReadyToTest()])"
+        ),
+    ],
+)
+def test_the_tests_may_start_at_an_event(execute, tmp_path, handler):
+    description = (
+        "from launch.actions import RegisterEventHandler\nfrom launch.event_handlers import OnProcessStart\n"
+        "def generate_test_description():\n"
+        "    program = 'import time; print(\"is up\"); time.sleep(60)'\n"
+        "    process = ExecuteProcess(cmd=[sys.executable, '-u', '-c', program])\n"
+        f"    return launch.LaunchDescription([process, RegisterEventHandler({handler})])\n"
+    )
+    test = (
+        "class TestIt(unittest.TestCase):\n    def test_it(self, proc_output):\n"
+        "        proc_output.assertWaitFor('is up', timeout=30, stream='stdout')\n"
+    )
+    code, output = execute("-m", "launch_testing.launch_test", file_with(tmp_path, description, test))
+    assert code == 0, output
+
+
 def test_arguments_are_shown(execute):
     code, output = execute("-m", "launch_testing.launch_test", FILES / "hello.py", "--show-args")
     assert code == 0

@@ -6,10 +6,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from launch.event_handlers import OnProcessIO
+from launch.utilities import normalize_to_list_of_entities
 
 if TYPE_CHECKING:
     from launch.actions.execute_local import ExecuteLocal
     from launch.events.process import ProcessIO
+    from launch.launch_description_entity import LaunchDescriptionEntity
     from launch.some_entities_type import SomeEntitiesType
 
 __all__ = ["StdoutReadyListener"]
@@ -29,6 +31,10 @@ class StdoutReadyListener(OnProcessIO):
         self.__ready_txt = ready_txt
         self.__actions: SomeEntitiesType | None = actions
         self.__text = ""
+
+    def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
+        """Return a description and the actions, among which may be ReadyToTest."""
+        return super().describe()[0], normalize_to_list_of_entities(self.__actions)
 
     def __on_stdout(self, event: ProcessIO) -> Any:
         if self.__actions is None:
