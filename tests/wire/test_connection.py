@@ -232,3 +232,28 @@ def test_messages_are_received_in_asyncio(domain_id):
     with coframe.connect("one", domain=domain_id) as ros:
         subscription = ros.subscribe("chatter", STRING)
         assert asyncio.run(received(ros, subscription)) == ["first", "second", "end", "after"]
+
+
+@pytest.mark.parametrize("shared", [False, True])
+def test_a_connection_interpolates_along_screws_if_asked(domain_id, eventually, shared):
+    with (
+        coframe.connect("sender", domain=domain_id) as sender,
+        coframe.connect("listener", domain=domain_id, interpolation="screw", shared=shared) as ros,
+    ):
+        assert (ros.buffer.interpolation, sender.buffer.interpolation) == ("screw", "decoupled")
+        for stamp, yaw in ((1_000_000_000, 0.0), (2_000_000_000, 1.0)):
+            pose = coframe.Transform.from_rpy([yaw, 0.0, 0.0], yaw=yaw)
+            eventually(
+                lambda p=pose, s=stamp: sender.send("odom", "base", p, stamp=s) or ros.buffer.frame_exists("base")
+            )
+        expected = coframe.Buffer(None, interpolation="screw")
+        expected.set("odom", "base", coframe.Transform(), 1_000_000_000)
+        expected.set("odom", "base", coframe.Transform.from_rpy([1.0, 0.0, 0.0], yaw=1.0), 2_000_000_000)
+        found = ros.buffer.lookup("odom", "base", 1_500_000_000, timeout="5s")
+        assert found.y == pytest.approx(expected.lookup("odom", "base", 1_500_000_000).y, abs=1e-12)
+        assert abs(found.y) > 0.01
+
+
+def test_an_unknown_interpolation_is_refused(domain_id):
+    with pytest.raises(ValueError, match="interpolation must be 'decoupled' or 'screw', not 'slerp'"):
+        coframe.connect("one", domain=domain_id, interpolation="slerp")

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import bisect
 import itertools
+import struct
 import threading
 from typing import TYPE_CHECKING, Any
 
@@ -31,6 +32,8 @@ if TYPE_CHECKING:
 
 # Covariances of an edge that a buffer with a limited cache keeps; as many samples as the core keeps would need 400 MB.
 MAX_COVARIANCES = 1 << 17
+_EDGE = struct.Struct("<II")
+_COVARIANCE_BYTES = 8 + 36 * 8  # of a stamp and a matrix
 
 
 class EdgeCovariances:
@@ -80,6 +83,11 @@ class EdgeCovariances:
         share = np.where(length > 0, np.clip(times - stamps[before], 0, length) / np.maximum(length, 1), 0.0)
         result: Array = older + share[:, None, None] * (newer - older)
         return result
+
+    def arrays(self) -> tuple[NDArray[np.int64], Array]:
+        """Return the stamps, (N,) nanoseconds, and the matrices, (N, 6, 6)."""
+        with self._lock:
+            return np.array(self._stamps, dtype=np.int64), np.array(self._matrices, dtype=np.float64).reshape(-1, 6, 6)
 
     def copy(self) -> EdgeCovariances:
         """Return an independent copy."""
@@ -136,6 +144,44 @@ def set_covariance(buffer: _core.Buffer, parent: str, child: str, pose: Any, *, 
             hint="Pass a pose with a stamp, or static=True if the covariance never changes.",
         )
     store(buffer, child, given, stamps, static=static)
+
+
+def pack(buffer: _core.Buffer) -> bytes:
+    """Return the covariances of a buffer as bytes for a file; empty if there are none.
+
+    For each edge: the length of the child's name and the number of covariances (uint32), the name in UTF-8, the stamps
+    (int64) and the matrices (36 float64 each), all little endian.
+    """
+    parts = []
+    for child, edge in covariances_of(buffer).items():
+        stamps, matrices = edge.arrays()
+        name = child.encode()
+        parts += [_EDGE.pack(len(name), len(stamps)), name, stamps.astype("<i8").tobytes()]
+        parts.append(matrices.astype("<f8").tobytes())
+    return b"".join(parts)
+
+
+def unpack(buffer: _core.Buffer, data: bytes) -> None:
+    """Store the covariances that :func:`pack` returned.
+
+    Raises:
+        ValueError: The bytes are damaged.
+    """
+    place = 0
+    while place < len(data):
+        if len(data) - place < _EDGE.size:
+            raise ValueError("the covariances are truncated")
+        length, number = _EDGE.unpack_from(data, place)
+        name, stamps = place + _EDGE.size, place + _EDGE.size + length
+        matrices, place = stamps + 8 * number, stamps + _COVARIANCE_BYTES * number
+        if not number or place > len(data):
+            raise ValueError("the covariances are truncated")
+        times = np.frombuffer(data, "<i8", number, stamps).tolist()
+        values = np.frombuffer(data, "<f8", 36 * number, matrices).reshape(-1, 6, 6)
+        if not np.isfinite(values).all():
+            raise ValueError("a covariance is not finite")
+        edge = covariances_of(buffer).setdefault(data[name:stamps].decode(), EdgeCovariances(buffer.cache_ns))
+        edge.add(times, values)
 
 
 def with_covariance(buffer: _core.Buffer, pose: Transform, edge_pose: Callable[[str, str], Transform]) -> Transform:

@@ -8,6 +8,7 @@ A frozen file is little endian throughout:
               the translation, index of the parent); each frame begins a new chunk
     table     names of authorities and frames; for each frame its kind, its counters, its number of samples, and
               its first and last stamp
+    covariances  of edges, if there are any; see `coframe.buffer._covariances.pack`
 
 Opening a file reads and checks only the header and the table. The samples are mapped into memory, and the system reads
 the pages that lookups touch; small files are copied instead. No number in the file can make a lookup read outside it,
@@ -25,6 +26,7 @@ from typing import TYPE_CHECKING, BinaryIO, NamedTuple
 from coframe import _core
 from coframe._files.complete_files import complete_or_absent
 from coframe._files.regular_files import open_regular
+from coframe.buffer._covariances import pack
 from coframe.errors import FrozenFileError
 
 if TYPE_CHECKING:
@@ -33,7 +35,7 @@ if TYPE_CHECKING:
 
     from coframe.buffer import Buffer
 
-__all__ = ["BLOCK_SIZE", "Header", "damaged", "opened", "read_header", "save"]
+__all__ = ["BLOCK_SIZE", "Header", "damaged", "opened", "read_covariances", "read_header", "save"]
 
 _MAGIC = b"\x89CFZ\r\n\x1a\n"
 _VERSION = 1
@@ -53,7 +55,7 @@ class Header(NamedTuple):
         version: Version of the format.
         table_crc: CRC-32 of the table.
         samples_crc: CRC-32 of the samples.
-        reserved: Zero.
+        covariances_crc: CRC-32 of the covariances, which follow the table; 0 if there are none.
         cache: Cache length of the buffer in nanoseconds; negative if it kept everything.
         samples: Position of the samples.
         samples_size: Size of the samples in bytes.
@@ -65,7 +67,7 @@ class Header(NamedTuple):
     version: int
     table_crc: int
     samples_crc: int
-    reserved: int
+    covariances_crc: int
     cache: int
     samples: int
     samples_size: int
@@ -101,11 +103,38 @@ def _write(snapshot: Buffer, file: BinaryIO) -> None:
         file.write(block)
     size = chunks * _CHUNK
     file.write(table)
+    covariances = pack(snapshot)
+    file.write(covariances)
+    covariances_crc = (zlib.crc32(covariances) or 1) if covariances else 0
     header = _HEADER.pack(
-        _MAGIC, _VERSION, zlib.crc32(table), crc, 0, snapshot.cache_ns, _PAGE, size, _PAGE + size, len(table)
+        _MAGIC,
+        _VERSION,
+        zlib.crc32(table),
+        crc,
+        covariances_crc,
+        snapshot.cache_ns,
+        _PAGE,
+        size,
+        _PAGE + size,
+        len(table),
     )
     file.seek(0)
     file.write(header + _CRC.pack(zlib.crc32(header)))
+
+
+def read_covariances(path: Path, file: BinaryIO, header: Header) -> bytes:
+    """Return the bytes of the covariances; empty if there are none.
+
+    Raises:
+        FrozenFileError: The checksum is wrong.
+    """
+    if not header.covariances_crc:
+        return b""
+    file.seek(header.table + header.table_size)
+    data = file.read()
+    if (zlib.crc32(data) or 1) != header.covariances_crc:
+        raise damaged(path, "the checksum of its covariances is wrong")
+    return data
 
 
 @contextlib.contextmanager

@@ -175,8 +175,7 @@ class Buffer(_many_lookups.Buffer):
         """Store only the covariance of a pose, for an edge whose poses come from elsewhere, such as /tf.
 
         It is interpolated along the axes of ``child`` between the stamps around a time, and held before the first and
-        after the last one. It changes no pose, so it may be stored in frozen buffers and those of recordings, too; but
-        :meth:`save` does not write it.
+        after the last one. It changes no pose, so it may be stored in frozen buffers and those of recordings, too.
 
         Args:
             parent: The parent frame, in which the pose is expressed.

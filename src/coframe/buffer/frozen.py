@@ -11,7 +11,8 @@ from typing import Any, BinaryIO
 
 from coframe import _core
 from coframe.buffer import Buffer
-from coframe.buffer._frozen_file import BLOCK_SIZE, damaged, opened, read_header
+from coframe.buffer._covariances import unpack
+from coframe.buffer._frozen_file import BLOCK_SIZE, damaged, opened, read_covariances, read_header
 from coframe.buffer.dispatcher import Dispatcher
 
 __all__ = ["FrozenBuffer", "load"]
@@ -34,6 +35,7 @@ class FrozenBuffer(Buffer):
         self._path = Path(path).absolute()
         with opened(self._path) as file:
             header = read_header(self._path, file)
+            covariances = read_covariances(self._path, file, header)
             self._memory = self._copy_small_file(file) or mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
         self._guard = _core.MemoryGuard(self._memory, _LOSS.format(path=self._path))
         if zlib.crc32(memoryview(self._memory)[header.table : header.table + header.table_size]) != header.table_crc:
@@ -45,6 +47,10 @@ class FrozenBuffer(Buffer):
             raise damaged(self._path, reason)
         self._dispatcher = Dispatcher()
         self._header = header
+        try:
+            unpack(self, covariances)
+        except ValueError as error:
+            raise damaged(self._path, str(error)) from None
 
     def _copy_small_file(self, file: BinaryIO) -> mmap.mmap | None:
         """Return a copy of a small file, which other programs cannot change; None for a large file."""

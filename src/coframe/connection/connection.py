@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from coframe.connection._receivers import Receiver
     from coframe.messages.message import Message
     from coframe.time import DurationLike, StampLike
+    from coframe.transform.interpolation import Interpolation
     from coframe.transform.transform import Transform
     from coframe.viewer import Viewer
     from coframe.wire.endpoints import GraphNode
@@ -385,6 +386,7 @@ def connect(
     prefix: str = "",
     keep: Iterable[str] = (),
     shared: bool = False,
+    interpolation: Interpolation = "decoupled",
 ) -> Connection:
     """Join the ROS 2 graph and receive its transforms into a buffer in the background.
 
@@ -413,9 +415,11 @@ def connect(
             first process receives the transforms for all; if it ends, another one takes over. A buffer that the program
             changes (`set`, `clear`, ...) is detached. Linux only: on other platforms, a warning is logged and this
             process receives the transforms itself. See docs/how-to/shared-transforms.md.
+        interpolation: How the buffer computes poses between two samples: "decoupled", as in tf2, or "screw", with a
+            constant twist; see :class:`coframe.Buffer`.
 
     Raises:
-        ValueError: The prefix begins with a slash.
+        ValueError: The prefix begins with a slash, or the interpolation is unknown.
         WireError: The middleware is not installed, or it cannot join the graph. `.hint` says what to do.
 
     Example:
@@ -431,5 +435,6 @@ def connect(
         cache=cache,
         domain=domain,
         wire=wire,
+        interpolation=interpolation,
     )
     return Connection(node_name, config, node_namespace=node_namespace, shared=shared)

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Final, TypeVar
 
@@ -14,6 +14,7 @@ from coframe.buffer.buffer import Buffer, cache_length
 from coframe.connection._connection_buffer import ConnectionBuffer
 from coframe.frame_names import TF_STATIC_TOPIC, TF_TOPIC
 from coframe.time import SECOND
+from coframe.transform.interpolation import is_screw
 from coframe.wire import domains, selection
 
 if TYPE_CHECKING:
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 
     from coframe import _core
     from coframe.time import DurationLike
+    from coframe.transform.interpolation import Interpolation
 
 __all__ = ["ListenerConfig"]
 
@@ -45,6 +47,7 @@ class ListenerConfig:
         cache: The length of the buffer's cache in nanoseconds; negative to keep everything.
         domain: The ROS domain, 0 to 232.
         wire: The middleware, "dds" or "zenoh".
+        interpolation: How the buffer computes poses between two samples; it does not change what is received.
     """
 
     tf_topic: str = TF_TOPIC
@@ -54,6 +57,7 @@ class ListenerConfig:
     cache: int = _TEN_SECONDS
     domain: int = 0
     wire: str = selection.DEFAULT.wire
+    interpolation: Interpolation = field(default="decoupled", compare=False)
 
     @classmethod
     def of(
@@ -67,6 +71,7 @@ class ListenerConfig:
         cache: DurationLike | None = _TEN_SECONDS,
         domain: int | None = None,
         wire: str | None = None,
+        interpolation: Interpolation = "decoupled",
     ) -> Self:
         """Check the arguments of a caller, and replace None with the defaults.
 
@@ -80,13 +85,15 @@ class ListenerConfig:
             are kept.
             domain: The ROS domain. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
             wire: The middleware. If None, the selected one; see `coframe.wire.selection`.
+            interpolation: ``"decoupled"``, as in tf2, or ``"screw"``; see :class:`coframe.Buffer`.
 
         Raises:
-            ValueError: The prefix begins with a slash, or the cache is negative.
+            ValueError: The prefix begins with a slash, the cache is negative, or the interpolation is unknown.
             TypeError: The cache is not a duration, or a name is not a string.
             WireError: The domain or the middleware does not exist.
         """
         frame_names.renaming(prefix, keep)  # checks both
+        is_screw(interpolation)  # checks the name
         root = f"/{namespace.strip('/')}".rstrip("/") if namespace else ""
         return cls(
             tf_topic=tf_topic or root + TF_TOPIC,
@@ -96,6 +103,7 @@ class ListenerConfig:
             cache=cache_length(cache),
             domain=domains.domain_id() if domain is None else domains.check_domain_id(domain),
             wire=selection.resolve(wire),
+            interpolation=interpolation,
         )
 
     @property
@@ -112,7 +120,8 @@ class ListenerConfig:
         return self._buffer(ConnectionBuffer)
 
     def _buffer(self, kind: type[_B]) -> _B:
-        return kind(None if self.cache < 0 else np.timedelta64(self.cache, "ns"))
+        cache = None if self.cache < 0 else np.timedelta64(self.cache, "ns")
+        return kind(cache, interpolation=self.interpolation)
 
     @cached_property
     def renaming(self) -> _core.Renaming | None:

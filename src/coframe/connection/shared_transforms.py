@@ -9,7 +9,7 @@ import hashlib
 import logging
 import os
 import threading
-from dataclasses import astuple
+from dataclasses import astuple, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
@@ -55,7 +55,8 @@ def open_segment(config: ListenerConfig, generation: int = 0) -> _core.Segment:
     if not hasattr(os, "getuid"):
         raise _core.SegmentError("sharing transforms between processes is supported only on Linux")
     # The name differs for every configuration, network namespace and configuration of the middleware.
-    text = repr((*astuple(config), selection.network(config.wire), _network(), generation))
+    received = astuple(replace(config, interpolation="decoupled"))  # Buffers may interpolate in different ways.
+    text = repr((*received, selection.network(config.wire), _network(), generation))
     name = f"{config.domain}-{hashlib.sha256(text.encode()).hexdigest()[:16]}"
     return _core.Segment.open(_FOLDER.format(user=os.getuid()), name, config.cache)
 
