@@ -97,7 +97,7 @@ def find_body_offset(reference: Transform, estimate: Transform, align: Align) ->
     extent = float(np.sqrt(reference.translation.var(axis=0).sum()))
     is_near = translations[1] < max(_LEFT * translations[0], _LEFT * 2.0 * np.sin(angle / 2.0) * extent)
     turned = angle > _MIN_ANGLE and rotations[1] < _LEFT * rotations[0] and is_near
-    # A lever arm can only be told from noise if it explains the translations, and nothing gets worse.
+    # A lever arm can only be distinguished from noise if it explains the translations, and nothing gets worse.
     moved = translations[1] < _LEFT * translations[0] and rotations[1] < 1.01 * rotations[0] + 1e-9
     is_arm = float(np.linalg.norm(offset.translation)) > 3.0 * translations[1] + 1e-6
     if not (turned or (moved and is_arm)):
