@@ -301,7 +301,7 @@ class _Evaluation:
                 target="",
                 source="",
                 requested=int(table.stamps[row]),
-                hint='on_gap="nan" marks such values; on_gap="omit" leaves their rows out.',
+                hint='on_gap="nan" marks such values; on_gap="omit" omits their rows.',
             )
         kept = table.taken(complete)
         return replace(kept, omitted=int((~complete).sum()))
