@@ -107,7 +107,7 @@ $(VENV)/.fuzz: pyproject.toml | $(STAMP)
 fuzz: $(VENV)/.fuzz ## run coverage-guided fuzzing of all decoders and readers for SECONDS=60 in total; ARGS selects targets
 	$(BIN)/python tests/fuzz/run.py --seconds $(or $(SECONDS),60) $(ARGS)
 
-faults: $(STAMP) ## cause faults between real processes, and check what docs/reliability.md promises (12 minutes)
+faults: $(STAMP) ## cause faults between real processes, and check what docs/reliability.md promises (20 minutes)
 	@$(BIN)/python -E -m benchmarks.faults $(ARGS)
 
 soak: $(STAMP) ## run 20 nodes, recorder, viewer and doctor for 30 minutes: nothing may grow
