@@ -7,7 +7,7 @@ import difflib
 import json
 import time
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import click
 from click.exceptions import Exit
@@ -18,6 +18,7 @@ from rich.text import Text
 from coframe._process.freed_memory import return_freed_arrays
 from coframe.bags.namespaces import ALL_TRANSFORMS, TransformChoice
 from coframe.cli.declaration import PATH, Command
+from coframe.cli.doctor_clocks import show_clocks
 from coframe.cli.doctor_fix import fix_recording, print_recipe
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
 from coframe.cli.options import (
@@ -107,6 +108,12 @@ _CPU_SHARE = 0.006
     "--fix", "fixed", metavar="OUT", type=PATH, help="Write a repaired copy of the recording BAG, and examine it."
 )
 @click.option("--yes", "-y", is_flag=True, help="Apply the recipe of --fix without asking.")
+@click.option(
+    "--clocks", is_flag=True, help="Print the offset and the drift of each publisher's clock instead of the report."
+)
+@click.option(
+    "--output", "-o", metavar="FILE", type=PATH, help="With --clocks: a plot of the delays (.svg, .png, .html)."
+)
 @namespace_option
 @domain_option
 @recorded_listener_options
@@ -129,6 +136,8 @@ def doctor(
     shows_recipe: bool,
     fixed: Path | None,
     yes: bool,
+    clocks: bool,
+    output: Path | None,
     namespace: str | None,
     domain: int | None,
     tf_topic: str | None,
@@ -160,42 +169,68 @@ def doctor(
         return
     ignored = _known_codes(ignore)
     _check_combination(bag, watch=watch, as_json=as_json, sarif=sarif)
+    _check_clocks(
+        output, clocks=clocks, others={"--watch": watch, "--sarif": sarif, "--recipe": shows_recipe, "--fix": fixed}
+    )
     if fixed is not None or shows_recipe:
         has_choice = bool(namespace or tf_topic or tf_static_topic or prefix)
         _require_plain_recording(bag, has_choice or watch or as_json or sarif)
+    choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
     with run_until_interrupted() if watch else run_to_completion():
-        if bag is not None:
-            choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
+        if bag is None:
+            reports = {"": _examine_graph(choice, domain, cache, duration, ignored, watch=watch, as_json=as_json)}
+        else:
             reports = _reports(bag, choice, ignored, cache)
-            if shows_recipe:
-                print_recipe(reports)
-                return
-            if fixed is not None:
+        if clocks:
+            show_clocks({name: report.observation for name, report in reports.items()}, output, as_json=as_json)
+        elif shows_recipe:
+            print_recipe(reports)
+        else:
+            if bag is not None and fixed is not None:
                 _print(reports)
                 examine = partial(_examine, ignored=ignored, cache=cache)
                 fix_recording(bag, fixed, reports, examine, yes=yes)
             _print_and_exit(reports, as_json, sarif, bag, fail_on)
-        from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no middleware
 
-        config = ListenerConfig.of(
-            domain=domain,
-            namespace=namespace,
-            tf_topic=tf_topic,
-            tf_static_topic=tf_static_topic,
-            prefix=prefix,
-            keep=keep,
-            cache=cache,
-        )
-        with LiveObserver(config, window=duration if watch else None) as observer:
-            if watch:
-                _watch(observer, ignored, as_json)
-                return
-            if Console(stderr=True).is_terminal:
-                click.echo(f"observing for {duration} ...", err=True)
-            observer.listen(duration.seconds)
-            observer.listen_for_statics()
-            report = diagnose(observer.observe(), ignore=ignored)
-        _print_and_exit({"": report}, as_json, sarif, None, fail_on)
+
+def _examine_graph(
+    choice: TransformChoice,
+    domain: int | None,
+    cache: PositiveDuration,
+    duration: PositiveDuration,
+    ignored: list[str],
+    *,
+    watch: bool,
+    as_json: bool,
+) -> Report:
+    """Return the report about the live graph; with `watch`, update it until Ctrl-C instead."""
+    from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no middleware
+
+    config = ListenerConfig.of(
+        domain=domain,
+        namespace=choice.namespace,
+        tf_topic=choice.tf_topic,
+        tf_static_topic=choice.tf_static_topic,
+        prefix=choice.prefix,
+        keep=choice.keep,
+        cache=cache,
+    )
+    with LiveObserver(config, window=duration if watch else None) as observer:
+        if watch:
+            _watch(observer, ignored, as_json)
+        if Console(stderr=True).is_terminal:
+            click.echo(f"observing for {duration} ...", err=True)
+        observer.listen(duration.seconds)
+        observer.listen_for_statics()
+        return diagnose(observer.observe(), ignore=ignored)
+
+
+def _check_clocks(output: Path | None, *, clocks: bool, others: dict[str, object]) -> None:
+    if output is not None and not clocks:
+        fail("--output is the plot of --clocks; add --clocks", code=2)
+    for name, given in others.items():
+        if clocks and given:
+            fail(f"--clocks cannot be combined with {name}", code=2)
 
 
 def _check_combination(bag: Readable | None, *, watch: bool, as_json: bool, sarif: bool) -> None:
@@ -326,7 +361,7 @@ def _texts(report: Report) -> list[Text]:
     return every
 
 
-def _watch(observer: LiveObserver, ignore: list[str], as_json: bool) -> None:
+def _watch(observer: LiveObserver, ignore: list[str], as_json: bool) -> NoReturn:
     """Update the report every second, or less often if the diagnosis takes long, until Ctrl-C."""
     return_freed_arrays()
     console = Console(highlight=False)
