@@ -4,6 +4,7 @@
 from benchmarks.rows import (
     batch,
     doctor,
+    editing,
     fleet,
     history,
     idle,
@@ -37,7 +38,7 @@ ROWS = {
     "fleet": fleet.ROWS,
     "router": router.ROWS,
     "doctor": doctor.ROWS,
-    "recordings": recordings.ROWS + large_recordings.ROWS,
+    "recordings": recordings.ROWS + large_recordings.ROWS + editing.ROWS,
     "history": history.ROWS,
     "startup": startup.ROWS,
     "idle": idle.ROWS,

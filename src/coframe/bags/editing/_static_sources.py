@@ -15,7 +15,6 @@ from coframe.bags.editing._calibrations import calibrated_transforms
 from coframe.bags.formats import is_recording
 from coframe.bags.recording import open_bag
 from coframe.errors import EditError
-from coframe.robots.files import load
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -127,6 +126,8 @@ def _of_recording(path: Path) -> list[StaticTransform]:
 
 
 def _of_robot(path: Path) -> list[StaticTransform]:
+    from coframe.robots.files import load  # noqa: PLC0415 - slow import, and rarely needed
+
     return [
         StaticTransform(joint.parent, joint.child, joint.origin.values)
         for joint in load(path).joints.values()
