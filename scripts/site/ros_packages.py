@@ -23,8 +23,8 @@ _INDEX = """# ROS packages without ROS
 
 `import rclpy`, `import tf2_ros` and the packages below work without a ROS installation: see [Coming from
 tf2](../../how-to/coming-from-tf2.md). Each page lists the modules, classes and functions that exist; they have the
-names and arguments of ROS 2 Humble, and the additions of Jazzy. Message packages are listed in [your own
-messages](../../how-to/own-messages.md#what-coframe-contains).
+names and arguments of ROS 2 Humble, Jazzy and Kilted, and the additions of Lyrical. Message packages are listed in
+[your own messages](../../how-to/own-messages.md#what-coframe-contains).
 
 | package | contents |
 |---|---|
@@ -81,8 +81,17 @@ def _is_listed(module: griffe.Module, member: griffe.Object | griffe.Alias) -> b
         # A name from a private module of the package, or one that the package names in __all__.
         package = module.path.partition(".")[0]
         exported = member.name in (module.exports or ())
-        return member.target_path.startswith(f"{package}.") and (exported or f"{package}._" in member.target_path)
+        is_own = member.target_path.startswith(f"{package}.") and (exported or f"{package}._" in member.target_path)
+        return is_own and _is_known(member)
     return not member.is_module and (not member.is_attribute or member.name.isupper() or member.has_docstring)
+
+
+def _is_known(alias: griffe.Alias) -> bool:
+    """Return whether a name is defined in a package that was loaded: those of messages are not."""
+    try:
+        return alias.final_target is not None
+    except griffe.AliasResolutionError:
+        return False
 
 
 def _row(name: str, member: griffe.Object | griffe.Alias) -> str:
