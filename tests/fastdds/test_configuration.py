@@ -9,7 +9,6 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-import coframe_fastdds
 import pytest
 from coframe_fastdds import _config as config
 from coframe_fastdds import _fastdds as native
@@ -18,7 +17,6 @@ from keystores import Keystore  # of this folder
 
 import coframe
 from coframe.errors import WireError
-from coframe.wire import selection
 
 PROFILES = """<?xml version="1.0" encoding="UTF-8"?>
 <dds><profiles xmlns="http://www.eprosima.com">
@@ -247,9 +245,3 @@ def test_a_library_without_security_does_not_communicate_where_it_is_enforced(tm
     with pytest.raises(WireError, match="was built without security"):
         config.read(environment)
     assert config.read({**environment, "ROS_SECURITY_STRATEGY": "Permissive"}).properties == ()
-
-
-def test_the_module_describes_itself() -> None:
-    lines = selection.row_of("fastdds").load().describe()
-    assert lines[0].startswith("Fast DDS ")
-    assert coframe_fastdds.__doc__

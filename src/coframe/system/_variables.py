@@ -23,8 +23,8 @@ _EFFECTS: Final = {
     "RMW_IMPLEMENTATION": "selects the middleware of ROS 2's own nodes; rmw_zenoh_cpp also selects Zenoh for coframe, "
     "and rmw_fastrtps_cpp Fast DDS where coframe-fastdds is installed",
     "ROS_AUTOMATIC_DISCOVERY_RANGE": "the range of discovery: OFF, LOCALHOST, SUBNET or SYSTEM_DEFAULT",
-    "ROS_DISCOVERY_SERVER": "no effect on coframe; nodes on Fast DDS announce themselves only at this server, so that "
-    "coframe does not find them",
+    "ROS_DISCOVERY_SERVER": "nodes on Fast DDS announce themselves only at this server; coframe uses it on Fast DDS, "
+    "and otherwise does not find them",
     "ROS_DISTRO": "selects the ROS 2 distribution whose message definitions and behavior coframe follows",
     "ROS_DOMAIN_ID": "the domain; only processes in the same domain find each other",
     "ROS_HOME": "the folder of ROS's files, such as log files",
@@ -39,8 +39,10 @@ _EFFECTS: Final = {
     "ZENOH_SESSION_CONFIG_URI": "the configuration file of Zenoh sessions",
 }
 _PREFIXES: Final = {
-    "FASTRTPS_": "no effect on coframe; configures nodes on Fast DDS",
-    "FASTDDS_": "no effect on coframe; configures nodes on Fast DDS",
+    "FASTRTPS_": "configures nodes on Fast DDS, also those of coframe",
+    "FASTDDS_": "configures nodes on Fast DDS, also those of coframe",
+    "RMW_FASTRTPS_": "configures nodes on Fast DDS, also those of coframe",
+    "ROS_SECURITY_": "the security of DDS, which coframe has on Fast DDS only",
     "ZENOH_": "no effect on coframe",
     "COFRAME_": "unknown to coframe",
     "CYCLONEDDS_": "no effect on coframe",

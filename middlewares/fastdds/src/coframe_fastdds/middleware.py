@@ -4,10 +4,12 @@
 from __future__ import annotations
 
 import importlib.util
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from coframe.errors import WireError
 from coframe_fastdds import _config as config
+from coframe_fastdds import _leftovers, _libraries
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -31,7 +33,7 @@ class FastDdsMiddleware:
         load()
 
     def describe(self) -> list[str]:
-        """Return the library, its version, and what configures it.
+        """Return the libraries, which one is used and why, what configures it, and what killed processes have left.
 
         Raises:
             WireError: It cannot be loaded, or an environment variable has an invalid value.
@@ -40,7 +42,14 @@ class FastDdsMiddleware:
         native = importlib.import_module("coframe_fastdds._fastdds")
         settings = config.read()
         memory = "shared memory and UDP" if native.SHARES_MEMORY else "UDP"
-        lines = [f"Fast DDS {native.VERSION}: {native.library()}", f"messages within this machine use {memory}"]
+        lines = [
+            *_libraries.lines(Path(native.library()), native.VERSION),
+            f"messages within this machine use {memory}",
+        ]
+        if native.SHARES_MEMORY and (left := _leftovers.line()):
+            lines.append(left)
+        if not native.HAS_SECURITY:
+            lines.append("the library was compiled without security")
         if settings.server:
             lines.append(f"discovery through the server {settings.server}")
         if settings.profiles:
