@@ -13,8 +13,9 @@ if TYPE_CHECKING:
     from coframe.wire.graph import DiscoveredEndpoint
     from coframe_fastdds import _fastdds as native
 
-_SERVER: Final = "the discovery server"
-_SERVER_TIME: Final = 2.0  # seconds in which it reports the other participants
+_SERVER: Final = "known to the discovery server"
+_ANNOUNCED: Final = "Fast DDS, announced every 3 s"
+_DISCOVERY_TIME: Final = 3.2  # seconds in which every other participant has announced itself
 
 
 class FastDdsGraph(DdsGraph):
@@ -23,7 +24,7 @@ class FastDdsGraph(DdsGraph):
     Args:
         participant: The participant, which discovers endpoints.
         info_reader: Receives the messages of the topic ros_discovery_info.
-        has_server: Whether participants are discovered through a server, which takes longer.
+        has_server: Whether participants are discovered through a server.
     """
 
     def __init__(self, participant: native.Participant, info_reader: BackendReader, *, has_server: bool) -> None:
@@ -34,14 +35,19 @@ class FastDdsGraph(DdsGraph):
             _Changes(participant.take_participants),
         )
 
-        self._server_deadline = time.monotonic() + (_SERVER_TIME if has_server else 0.0)
+        self._expected = _SERVER if has_server else _ANNOUNCED
+        self._deadline = time.monotonic() + _DISCOVERY_TIME
 
     def unnamed_participants(self) -> list[str]:
-        """Return the implementations of participants without known nodes, and the server until it has reported any."""
+        """Return the implementations of participants whose nodes are not known.
+
+        Participants on Fast DDS that miss the first announcements find each other by the next ones. Until then, one is
+        expected if there is none.
+        """
         if unnamed := super().unnamed_participants():
             return unnamed
-        waits = time.monotonic() < self._server_deadline and not self.participants()
-        return [_SERVER] if waits else []
+        is_expected = time.monotonic() < self._deadline and not self.participants()
+        return [self._expected] if is_expected else []
 
     def foreign_services(self, peer: DiscoveredEndpoint) -> str:
         """Return "": this process understands both forms of requests."""
