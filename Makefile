@@ -73,7 +73,10 @@ $(VENV)/.oracle: pyproject.toml | $(STAMP)
 $(VENV)/.installers: pyproject.toml | $(STAMP)
 	@$(BIN)/python -m pip install --quiet "pip>=25.1" && $(BIN)/python -m pip install --quiet --group installers && touch $@
 
-test-slow: $(STAMP) $(VENV)/.oracle $(VENV)/.installers $(VENV)/.docs ## run the tests that take minutes
+$(VENV)/.stores: pyproject.toml | $(STAMP)
+	@$(BIN)/python -m pip install --quiet "pip>=25.1" && $(BIN)/python -m pip install --quiet --group stores && touch $@
+
+test-slow: $(STAMP) $(VENV)/.oracle $(VENV)/.stores $(VENV)/.installers $(VENV)/.docs ## run the tests that take minutes
 	$(PYTEST) -m "slow and not long" $(ARGS)
 
 test-ros: $(STAMP) ## run programs with the sourced ROS 2 and with coframe, and compare their outputs

@@ -12,9 +12,10 @@ import pytest
 import recordings
 from click.testing import CliRunner
 from deadly import DeadlyQuery
+from file_server import FileServer
 
 import coframe
-from coframe.bags import QueryResult, TrajectoryQuery, batch, query_recording, query_recordings
+from coframe.bags import QueryResult, TableQuery, TrajectoryQuery, batch, query_recording, query_recordings
 from coframe.cli.app import app
 
 arrow_dataset = pytest.importorskip("pyarrow.dataset")
@@ -133,6 +134,7 @@ RAY = """
 import json, sys
 from coframe.bags import query_recordings
 from deadly import DeadlyQuery
+from file_server import FileServer
 
 folder, *bags = sys.argv[1:]
 results = query_recordings(bags, DeadlyQuery("odom", "lidar", rate=10), folder, on="ray", workers=2)
@@ -176,3 +178,132 @@ def test_missing_packages_are_reported_before_any_work(bags, tmp_path, monkeypat
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     with pytest.raises(coframe.RecordingError, match="Parquet needs the package pyarrow"):
         query_recordings(bags, WALK, tmp_path / "out")
+
+
+TABLE = TableQuery(["odom:lidar", "/tf@previous"], at="/tf", max_gap="200ms")
+
+
+def manifest(folder):
+    content = json.loads((folder / "_manifest.json").read_text())
+    return {entry["bag"]: entry for entry in content["recordings"]}
+
+
+def test_tables_of_many_recordings(bags, tmp_path):
+    results = query_recordings(bags, TABLE, tmp_path / "out", workers=2)
+    table = arrow_dataset.dataset(tmp_path / "out").to_table().to_pandas()
+    for result in (result for result in results if not result.error):
+        with coframe.open_bag(result.bag) as recording:
+            expected = TABLE.run(recording)
+        rows = table[table["bag"] == result.bag]
+        assert rows["stamp_ns"].tolist() == expected.stamps.tolist()
+        assert rows["odom:lidar.x"].tolist() == expected["odom:lidar.x"].tolist()
+        assert result.poses == len(expected) == manifest(tmp_path / "out")[result.bag]["rows"]
+    assert [result.reason for result in results] == ["", "unreadable", "", "", "unreadable"]
+    again = query_recordings(bags, TABLE, tmp_path / "out", workers=2)
+    assert [result.kept for result in again] == [True, False, True, True, False]
+    assert [result._replace(kept=False) for result in again] == results
+
+
+@pytest.mark.usefixtures("in_this_process")
+@pytest.mark.parametrize("on_gap", ["nan", "omit"])
+def test_the_manifest_lists_what_is_missing(tmp_path, on_gap):
+    rows = [row for number, row in enumerate(recordings.messages()) if not 20 <= number < 40]
+    rows += [("/tick", at - 1000, b"\0\1\0\0\1\0\0\0\0") for _, at, _ in recordings.messages()[1:]]
+    types = {"/tick": ("std_msgs/msg/String", "ros2msg", b"string data\n", "cdr")}
+    bag = recordings.write_mcap(tmp_path / "gap.mcap", rows=sorted(rows, key=lambda row: row[1]), types=types)
+    query = TableQuery(["odom:base"], at="/tick", max_gap="200ms", on_gap=on_gap)
+    (result,) = query_recordings([bag], query, tmp_path / "out")
+    (omission,) = result.omitted
+    assert (omission.column, omission.reason) == ("odom:base", "no samples around it within the limits")
+    assert omission.rows == 20
+    assert (omission.stop - omission.start) // recordings.SECOND == 0
+    written = arrow_dataset.dataset(tmp_path / "out").to_table()
+    assert (written.num_rows, result.missing) == ((60, 0) if on_gap == "nan" else (40, 20))
+    (entry,) = manifest(tmp_path / "out").values()
+    assert entry["omitted"] == [omission._asdict()]
+    assert (entry["rows"], entry["missing"], entry["file"]) == (written.num_rows, result.missing, result.file)
+
+
+@pytest.mark.usefixtures("in_this_process")
+@pytest.mark.parametrize(
+    ("query", "reason"),
+    [
+        (TableQuery("/nothing.x", at="/tf"), "no topic"),
+        (TableQuery("odom:lidar", at="/nothing"), "no topic"),
+        (TrajectoryQuery("odom", "lidar", stamps_of="/nothing"), "no topic"),
+        (TrajectoryQuery("odom", "moon"), "no transform"),
+        (TableQuery("odom:moon", at="/tf"), "no transform"),
+        (TableQuery("/tf.no_field"), "failed"),
+    ],
+)
+def test_the_reason_of_a_failure(bags, tmp_path, query, reason):
+    (result,) = query_recordings(bags[:1], query, tmp_path / "out")
+    assert result.reason == reason
+    entry = manifest(tmp_path / "out")[str(bags[0])]
+    assert (entry["reason"], entry["error"], entry["file"]) == (reason, result.error, "")
+
+
+@pytest.mark.usefixtures("in_this_process")
+def test_a_recording_that_fails_later_leaves_no_rows_of_another_query(bags, tmp_path):
+    query_recordings(bags[:1], WALK, tmp_path / "out")
+    content = bags[0].read_bytes()
+    bags[0].write_bytes(b"damaged")
+    (again,) = query_recordings(bags[:1], WALK, tmp_path / "out")
+    assert again.reason == "unreadable"
+    assert (tmp_path / "out" / again.file).exists(), "the poses of an earlier run are not lost"
+    (other,) = query_recordings(bags[:1], TABLE, tmp_path / "out")
+    assert other.file == ""
+    assert not list((tmp_path / "out").glob("*.parquet"))
+    bags[0].write_bytes(content)
+    assert query_recordings(bags[:1], TABLE, tmp_path / "out")[0].poses == 60
+
+
+def test_an_interrupted_batch_keeps_what_is_done(bags, tmp_path, monkeypatch):
+    def interrupted(run, jobs, _workers):
+        yield jobs[0], run(*jobs[0])
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setitem(batch.ENGINES, "processes", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            query_recordings(bags, TABLE, tmp_path / "out")
+    entries = manifest(tmp_path / "out")
+    assert entries[str(bags[0])]["rows"] == 60
+    assert entries[str(bags[2])]["reason"] == "interrupted"
+    assert query_recordings(bags[:1], TABLE, tmp_path / "out", workers=1)[0].kept
+
+
+def test_recordings_on_a_server(bags, tmp_path):
+    with FileServer({"/a/run.mcap": bags[0].read_bytes(), "/b/run.mcap": bags[2].read_bytes()}) as server:
+        urls = [server.url(path, "me:secret@") for path in ("/a/run.mcap", "/b/run.mcap", "/c/run.mcap")]
+        urls[0] += "?X-Amz-Signature=secret1"
+        first = query_recordings(urls, TABLE, tmp_path / "out", workers=2)
+        assert [result.reason for result in first] == ["", "", "unreadable"]
+        urls[0] = urls[0].replace("secret1", "secret2")
+        again = query_recordings(urls, TABLE, tmp_path / "out", workers=2)
+        assert [result.kept for result in again] == [True, True, False]
+        server.etag = '"changed"'
+        assert not query_recordings(urls[:1], TABLE, tmp_path / "out", workers=1)[0].kept
+    for file in (tmp_path / "out").iterdir():
+        assert b"secret" not in file.read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "text"),
+    [
+        (["-c", "odom:lidar", "--at", "/tf", "BAG"], 0, "60 rows from 1 recording"),
+        (["-c", "odom:lidar", "-c", "/tf@previous", "--rate", "10", "BAG"], 0, "30 rows from 1 recording"),
+        (["odom", "lidar", "--rate", "10", "BAG"], 0, "30 poses from 1 recording"),
+        (["-c", "odom:lidar", "BAG"], 1, "the rows of the table have no times"),
+        (["-c", "odom:lidar"], 2, "Missing argument"),
+        (["odom", "lidar"], 2, "missing argument BAG"),
+        (["odom", "lidar", "--at", "/tf", "BAG"], 2, "--at is for tables"),
+        (["-c", "odom:", "BAG"], 2, "odom:"),
+        (["-c", "odom:lidar", "ftp://x/y"], 2, "not supported"),
+    ],
+)
+def test_the_command_writes_tables(bags, tmp_path, arguments, code, text):
+    arguments = [str(bags[0]) if each == "BAG" else each for each in arguments]
+    result = CliRunner().invoke(app, ["batch", *arguments, "-o", str(tmp_path / "out"), "-j", "1"])
+    assert result.exit_code == code, result.output
+    assert text in result.output

@@ -124,6 +124,27 @@ def test_a_window_reads_only_its_chunks(tmp_path):
         assert server.sent == before, "everything was read when the window was opened"
 
 
+def test_a_table_of_an_interval_reads_only_its_chunks(tmp_path):
+    path = large(tmp_path / "run.mcap")
+    with FileServer({"/run.mcap": path.read_bytes()}) as server, coframe.open_bag(server.url()) as bag:
+        table = bag.table("odom:lidar", at="/tf", start="5min", stop="7min", validity=False)
+        assert table.stamps.tolist() == [START + second * SECOND for second in range(300, 421)]
+        assert table["odom:lidar.z"].tolist() == [4.0] * 121
+        assert 12_000_000 < server.sent < 1.1 * 142 * 100_300 + 1_000_000
+        before = server.sent
+        given = bag.table("odom:lidar", at=START + np.array([330, 360]) * SECOND)
+        assert given["odom:lidar.x"].tolist() == [1.0, 1.0]
+        assert server.sent < before + 1_000_000
+
+
+def test_a_table_of_another_clock_reads_everything(tmp_path):
+    rows = [(topic, at + 1000 * SECOND, data) for topic, at, data in messages()]
+    path = write_mcap(tmp_path / "run.mcap", rows=rows)
+    with FileServer({"/run.mcap": path.read_bytes()}) as server, coframe.open_bag(server.url()) as bag:
+        table = bag.table("odom:lidar", at="/tf", start=START + SECOND, stop=START + 2 * SECOND)
+        assert len(table) == 20
+
+
 def test_messages_are_received_once(tmp_path):
     path = large(tmp_path / "run.mcap", minutes=3)
     with FileServer({"/run.mcap": path.read_bytes()}) as server, coframe.open_bag(server.url()) as bag:

@@ -118,6 +118,11 @@ class MessageIndex:
         """Let a loader add messages to the tracks when they are needed."""
         self._loader = loader
 
+    @property
+    def is_waiting(self) -> bool:
+        """Whether messages are read when they are needed."""
+        return self._loader is not None
+
     def forget(self, topics: Iterable[str]) -> None:
         """Forget what was computed for topics whose tracks have more messages now."""
         for topic in topics:

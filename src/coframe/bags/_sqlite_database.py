@@ -57,6 +57,7 @@ class Database:
     def __init__(self, path: Path, add_problem: Callable[[str], object]) -> None:
         self._closing = ExitStack()
         self._steps = 0
+        self._process = os.getpid()
         self._path = path.resolve()  # SQLite looks for journals next to the target of a link.
         self.size = self._path.stat().st_size
         self._connection = self._recover_journal(add_problem) or self._connect(self._path, "mode=ro&immutable=1")
@@ -135,12 +136,21 @@ class Database:
 
     def beginning(self, table: str, column: str, row: int, size: int) -> bytes:
         """Return the first bytes of the value of a row, without reading the rest if Python supports that."""
+        self._check_process()
         if not hasattr(self._connection, "blobopen"):  # before Python 3.11
             return (self.blob(table, column, row) or b"")[:size]
         with self._connection.blobopen(table, column, row, readonly=True) as blob:
             return bytes(blob.read(size))
 
+    def _check_process(self) -> None:
+        """Open the file again in a forked process, which must not use the connection of its parent."""
+        if self._process != os.getpid():
+            self._process = os.getpid()
+            self._inherited = self._connection  # Closing it would release the locks of the parent.
+            self._connect(*self._opened)
+
     def _query(self, query: str, values: tuple[Any, ...] = (), steps: int | None = None) -> sqlite3.Cursor:
+        self._check_process()
         self._steps = max(MIN_STEPS, MAX_STEPS_PER_BYTE * self.size) if steps is None else steps
         with self._explain_interruption():
             return self._connection.execute(query, values)
@@ -156,6 +166,7 @@ class Database:
             raise sqlite3.OperationalError("reading it takes more work than any recording of its size") from error
 
     def _connect(self, path: Path, options: str) -> sqlite3.Connection:
+        self._opened = (path, options)
         connection = sqlite3.connect(f"{path.as_uri()}?{options}", uri=True, check_same_thread=False)
         self._connection = connection
         self._limit("LENGTH", min(MAX_UNPACKED_BYTES, max(self.size, MAX_SQL)))

@@ -19,6 +19,7 @@ from coframe._sources.sources import as_source
 from coframe.bags._batch_engines import ENGINES, optional_module
 from coframe.bags._batch_parts import fingerprint, keep_if_of_query, part_of, previous_result, write_part
 from coframe.bags._batch_results import MANIFEST, MAX_OMISSIONS, Manifest, Omission, QueryResult, omissions_of
+from coframe.bags._narrowing import run_query
 from coframe.bags.recording import open_chosen
 from coframe.bags.tables import TableQuery
 from coframe.bags.tables.columns import FieldSource, column, one_or_more
@@ -242,13 +243,19 @@ class _TableRun:
         pyarrow = _pyarrow()
         omits = self._query.on_gap == "omit"
         query = replace(self._query, on_gap="nan") if omits else self._query
-        for table in query.batches(self._recording, report=self._sentences.append):
+        for table in self._parts(query):
             self._note(table)
             complete = np.logical_and.reduce([each.valid for each in table.columns])
             rows = table.taken(complete) if omits else table
             self._missing += len(table) - len(rows)
             flat = rows.to_arrow(flat=True)
             yield flat.add_column(0, "bag", _bag_column(pyarrow, self._recording, len(rows)))
+
+    def _parts(self, query: TableQuery) -> Iterator[Table]:
+        if self._recording.is_waiting and not (query.start is None and query.stop is None):
+            yield run_query(self._recording, query, None, self._sentences.append)
+        else:
+            yield from query.batches(self._recording, report=self._sentences.append)
 
     def _note(self, table: Table) -> None:
         for each in table.columns:

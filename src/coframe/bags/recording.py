@@ -19,6 +19,7 @@ from coframe._sources.remote_error import RemoteFileError
 from coframe._sources.sources import as_source
 from coframe.bags._contents import read_contents
 from coframe.bags._decoding import decoder
+from coframe.bags._narrowing import run_query
 from coframe.bags._recorded_message import RecordedMessage, RecordedTopic
 from coframe.bags._table import edge_table
 from coframe.bags._time_window import ALL_TIME, TimeWindow
@@ -162,6 +163,7 @@ class Recording:
         self._received_span = contents.received_span
         self._renaming = choice.renaming
         self._decoders: dict[int, Callable[[bytes], Any]] = {}
+        self._part: Recording | None = None
         self._closing = contents.closing
         weakref.finalize(self, self._closing.close)  # closes the files if the user does not
 
@@ -515,7 +517,7 @@ class Recording:
             validity=validity is not False,
         )
         sentences: list[str] = []
-        table = query.run(self, stamps, report=sentences.append)
+        table = run_query(self, query, stamps, sentences.append)
         for sentence in sentences:
             warnings.warn(sentence, CoframeWarning, stacklevel=2)
         return table
@@ -619,6 +621,22 @@ class Recording:
         """Close the files; the transforms remain available."""
         self._index.close()
         self._closing.close()
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether the recording is on a server, and its transforms have not been read."""
+        return self._index.is_waiting and "_buffers" not in self.__dict__
+
+    def part(self, window: TimeWindow) -> Recording:
+        """Return a part of a recording on a server, which is closed with this one."""
+        if self._part is None or self._part.window != window:
+            self._part = open_chosen(self.path, self.choice, window=window)
+            self._part.disown()
+        return self._part
+
+    def disown(self) -> None:
+        """Leave the files open when this recording is closed, because they belong to another one."""
+        self._closing.pop_all()
 
     def __reduce__(self) -> tuple[object, ...]:
         path = self.path

@@ -18,6 +18,7 @@ even if the file is damaged.
 from __future__ import annotations
 
 import contextlib
+import io
 import os
 import struct
 import zlib
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
 
     from coframe.buffer import Buffer
 
-__all__ = ["BLOCK_SIZE", "Header", "damaged", "opened", "read_covariances", "read_header", "save"]
+__all__ = ["BLOCK_SIZE", "Header", "content_of", "damaged", "opened", "read_covariances", "read_header", "save"]
 
 _MAGIC = b"\x89CFZ\r\n\x1a\n"
 _VERSION = 1
@@ -91,6 +92,13 @@ def save(snapshot: Buffer, path: str | os.PathLike[str]) -> None:
             hint="Check that the folder exists, that you may write to it, and that the disk has space. "
             "On Windows, no other program may have the file open.",
         ) from None
+
+
+def content_of(snapshot: Buffer) -> bytes:
+    """Return the content of the file of a frozen buffer."""
+    file = io.BytesIO()
+    _write(snapshot, file)
+    return file.getvalue()
 
 
 def _write(snapshot: Buffer, file: BinaryIO) -> None:
@@ -154,13 +162,17 @@ def opened(path: Path) -> Iterator[BinaryIO]:
         raise FrozenFileError(f"{path} cannot be opened: {reason}", hint=_WRONG_FILE_HINT) from None
 
 
-def read_header(path: Path, file: BinaryIO) -> Header:
+def read_header(path: Path | str, file: BinaryIO, size: int) -> Header:
     """Read the header at the beginning of a file and check it.
+
+    Args:
+        path: The file, for error messages.
+        file: The file, opened for reading.
+        size: Its size in bytes.
 
     Raises:
         FrozenFileError: The file is not a frozen buffer, has another version, or is damaged.
     """
-    size = os.fstat(file.fileno()).st_size
     data = file.read(_HEADER.size + _CRC.size)
     if not data.startswith(_MAGIC):
         raise FrozenFileError(
@@ -184,6 +196,6 @@ def read_header(path: Path, file: BinaryIO) -> Header:
     return header
 
 
-def damaged(path: Path, reason: str) -> FrozenFileError:
+def damaged(path: Path | str, reason: str) -> FrozenFileError:
     """Return the error for a damaged file."""
     return FrozenFileError(f"{path} is damaged: {reason}", hint="Save the buffer again.")

@@ -40,7 +40,7 @@ class Buffer(_many_lookups.Buffer):
 
     All stamps are in nanoseconds; 0 or None means the latest time at which every edge between the frames has data.
     By default there is no extrapolation. A failed lookup raises the same exception as tf2 with the same message, plus a
-    ``hint``.
+    ``hint``. A buffer can be pickled, which gives the other process a frozen copy.
 
     Args:
         cache: How long dynamic transforms are kept: a string such as ``"10s"``, int nanoseconds or a timedelta. None
@@ -348,6 +348,12 @@ class Buffer(_many_lookups.Buffer):
             _covariances.covariances_of(copy)[child] = edge.copy()
         copy._dispatcher = Dispatcher()
         return copy
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle the transforms of this moment; the copy in the other process is frozen."""
+        from coframe.buffer.frozen import restored  # noqa: PLC0415 - it imports this module
+
+        return restored, (_frozen_file.content_of(self.snapshot()), self.interpolation)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Save the buffer to a file that :func:`coframe.load` opens without reading all of it.

@@ -3,19 +3,23 @@
 
 from __future__ import annotations
 
+import io
 import mmap
 import os
 import zlib
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 from coframe import _core
 from coframe.buffer import Buffer
 from coframe.buffer._covariances import unpack
-from coframe.buffer._frozen_file import BLOCK_SIZE, damaged, opened, read_covariances, read_header
+from coframe.buffer._frozen_file import BLOCK_SIZE, Header, damaged, opened, read_covariances, read_header
 from coframe.buffer.dispatcher import Dispatcher
 
-__all__ = ["FrozenBuffer", "load"]
+if TYPE_CHECKING:
+    from coframe.transform.interpolation import Interpolation
+
+__all__ = ["FrozenBuffer", "load", "restored"]
 
 MAX_COPIED = 1 << 20  # bytes; copying them takes half a millisecond
 
@@ -31,12 +35,31 @@ class FrozenBuffer(Buffer):
     Pickling stores only the path, so worker processes open the file themselves and share its memory.
     """
 
-    def __init__(self, path: str | os.PathLike[str]) -> None:
-        self._path = Path(path).absolute()
-        with opened(self._path) as file:
-            header = read_header(self._path, file)
-            covariances = read_covariances(self._path, file, header)
-            self._memory = self._copy_small_file(file) or mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
+    def __init__(self, path: str | os.PathLike[str], *, content: bytes | None = None) -> None:
+        self._path = Path(path)
+        if content is not None:
+            file = io.BytesIO(content)
+            header = read_header(self._path, file, len(content))
+            memory = mmap.mmap(-1, len(content))
+            memory.write(content)
+            self._use(memory, header, read_covariances(self._path, file, header))
+            return
+        self._path = self._path.absolute()
+        with opened(self._path) as opened_file:
+            header = read_header(self._path, opened_file, os.fstat(opened_file.fileno()).st_size)
+            covariances = read_covariances(self._path, opened_file, header)
+            memory = self._copy_small_file(opened_file) or mmap.mmap(
+                opened_file.fileno(), 0, access=mmap.ACCESS_READ
+            )
+        self._use(memory, header, covariances)
+
+    def _use(self, memory: mmap.mmap, header: Header, covariances: bytes) -> None:
+        """Read the samples from memory, and check its table.
+
+        Raises:
+            FrozenFileError: It is damaged.
+        """
+        self._memory = memory
         self._guard = _core.MemoryGuard(self._memory, _LOSS.format(path=self._path))
         if zlib.crc32(memoryview(self._memory)[header.table : header.table + header.table_size]) != header.table_crc:
             self._guard.check()
@@ -88,6 +111,16 @@ class FrozenBuffer(Buffer):
 
     def __repr__(self) -> str:
         return f"FrozenBuffer({str(self._path)!r}, frames={len(self.frame_names())})"
+
+
+def restored(content: bytes, interpolation: Interpolation) -> Buffer:
+    """Return the buffer that was pickled in another process, or at another time; it is frozen.
+
+    Args:
+        content: What its file would contain.
+        interpolation: How it computes poses between two samples.
+    """
+    return FrozenBuffer("a pickled buffer", content=content).snapshot(interpolation=interpolation)
 
 
 def load(path: str | os.PathLike[str], *, verify: bool = False) -> FrozenBuffer:
