@@ -130,8 +130,8 @@ def test_formats_and_folders(store, tmp_path):
     [
         ("s3://robots/none.mcap", "there is no such file in the store"),
         ("s3://nobody-has-this/none.mcap", "there is no such file in the store"),
-        ("s3://", "cannot be read"),
-        ("s3:///", "cannot be read"),
+        ("s3://", "is not a recording"),
+        ("s3:///", "is not a recording"),
         ("s3://robots", "is not a recording"),
         ("s3://Robots_/x", "cannot be read"),
         ("s3://robots/empty.mcap", "it is empty"),
