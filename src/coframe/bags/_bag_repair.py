@@ -102,7 +102,7 @@ def repair(
         added = [] if statics is None else _statics_of(statics)
         problems = recording.problems
         if problems and not any(topic.messages for topic in recording.topics.values()):
-            raise RecordingError(f"{source} cannot be repaired, because no message can be read: {problems[0]}")
+            raise RecordingError(f"{recording.path} cannot be repaired, because no message can be read: {problems[0]}")
         writer = Writer(target, compression=compression)
         work = _Repair(recording, writer, robot, rename)
         try:
@@ -330,7 +330,7 @@ def _statics_of(path: Location) -> list[TransformStamped]:
         statics = [edge for edge in other.buffer.edges() if edge.static and edge.parent]
         transforms = [(edge.parent, edge.child, other.buffer.lookup(edge.parent, edge.child)) for edge in statics]
     if not transforms:
-        raise RecordingError(f"{path} has no static transforms to add", hint="Give a recording with /tf_static.")
+        raise RecordingError(f"{other.path} has no static transforms to add", hint="Give a recording with /tf_static.")
     return [to_transform_stamped(parent, child, transform, 0) for parent, child, transform in transforms]
 
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
@@ -15,7 +16,7 @@ from coframe._output.formatting import count
 from coframe.bags.formats import file_kinds
 from coframe.bags.namespaces import TransformChoice
 from coframe.cli.completion import complete_recordings
-from coframe.cli.declaration import PATH, CommandGroup, argument
+from coframe.cli.declaration import PATH, RECORDING, CommandGroup, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     PositiveDuration,
@@ -41,8 +42,8 @@ from coframe.errors import ContractError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-    from pathlib import Path
 
+    from coframe._sources.sources import Readable
     from coframe.contract import Contract
 
 __all__ = ["contract"]
@@ -64,7 +65,7 @@ contract = CommandGroup(
 @namespace_option
 @recorded_listener_options
 def init(
-    bag: Path,
+    bag: Readable,
     output: Path,
     force: bool,
     namespace: str | None,
@@ -102,11 +103,11 @@ def init(
 @argument(
     "bags",
     metavar="BAG...",
-    type=PATH,
+    type=RECORDING,
     nargs=-1,
     required=True,
     shell_complete=complete_recordings,
-    help=lambda: f"Recordings: {file_kinds()}, or rosbag2 folders; the word `live` is the running system.",
+    help=lambda: f"Recordings: {file_kinds()}, rosbag2 folders, or their URLs; the word `live` is the running system.",
 )
 @click.option("--contract", "-c", "file", metavar="FILE", type=PATH, default="contract.yaml", help="Contract to check.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
@@ -121,7 +122,7 @@ def init(
 @domain_option
 @recorded_listener_options
 def check(
-    bags: tuple[Path, ...],
+    bags: tuple[Readable, ...],
     file: Path,
     as_json: bool,
     github: bool,
@@ -171,13 +172,13 @@ def check(
 
 def _verdicts(
     required: Contract,
-    bags: tuple[Path, ...],
+    bags: tuple[Readable, ...],
     choice: TransformChoice,
     duration: PositiveDuration,
     domain: int | None,
 ) -> Iterator[Verdict]:
     for bag in bags:
-        if str(bag) == _LIVE and not bag.exists():
+        if isinstance(bag, Path) and str(bag) == _LIVE and not bag.exists():
             yield _live(required, choice, duration, domain)
         else:
             with reading_progress() as progress:

@@ -15,11 +15,11 @@ from coframe.doctor.recorded import observe_chosen
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
-    import os
     from collections.abc import Callable, Iterable
 
     from numpy.typing import NDArray
 
+    from coframe._sources.sources import Location
     from coframe.bags import Recording
     from coframe.bags.namespaces import TransformChoice
     from coframe.connection.listener_config import ListenerConfig
@@ -66,7 +66,7 @@ class Measurement:
 
 
 def measure_recording(
-    path: str | os.PathLike[str],
+    path: Location,
     choice: TransformChoice = ALL_TRANSFORMS,
     *,
     progress: Callable[[int, int], object] | None = None,
@@ -74,7 +74,7 @@ def measure_recording(
     """Measure a recording.
 
     Args:
-        path: A file, or the folder of a rosbag2 recording.
+        path: A file, the folder of a rosbag2 recording, or its URL.
         choice: The transforms to read, and the prefix of their frames.
         progress: Called repeatedly with the number of bytes read and the total number.
 

@@ -6,15 +6,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe._output.escaping import one_line
+from coframe._sources.urls import is_url, without_credentials
 from coframe.bags.namespaces import ALL_TRANSFORMS
 from coframe.contract._checks import check_contract
 from coframe.contract._measurement import measure_recording
 from coframe.errors import RecordingError
 
 if TYPE_CHECKING:
-    import os
     from collections.abc import Callable
 
+    from coframe._sources.sources import Location
     from coframe.bags.namespaces import TransformChoice
     from coframe.contract._checks import Result
     from coframe.contract._contract import Contract
@@ -57,7 +58,7 @@ class Verdict(NamedTuple):
 
 def check_recording(
     contract: Contract,
-    path: str | os.PathLike[str],
+    path: Location,
     choice: TransformChoice = ALL_TRANSFORMS,
     *,
     progress: Callable[[int, int], object] | None = None,
@@ -66,12 +67,13 @@ def check_recording(
 
     Args:
         contract: The contract.
-        path: A file, or the folder of a rosbag2 recording.
+        path: A file, the folder of a rosbag2 recording, or its URL.
         choice: The transforms to read, and the prefix of their frames.
         progress: Called repeatedly with the number of bytes read and the total number.
     """
+    name = without_credentials(path) if isinstance(path, str) and is_url(path) else str(path)
     try:
         measurement = measure_recording(path, choice, progress=progress)
     except RecordingError as error:
-        return Verdict(str(path), (), str(error))
-    return Verdict(str(path), tuple(check_contract(contract, measurement)))
+        return Verdict(name, (), str(error))
+    return Verdict(name, tuple(check_contract(contract, measurement)))
