@@ -48,9 +48,7 @@ class FrozenBuffer(Buffer):
         with opened(self._path) as opened_file:
             header = read_header(self._path, opened_file, os.fstat(opened_file.fileno()).st_size)
             covariances = read_covariances(self._path, opened_file, header)
-            memory = self._copy_small_file(opened_file) or mmap.mmap(
-                opened_file.fileno(), 0, access=mmap.ACCESS_READ
-            )
+            memory = self._copy_small_file(opened_file) or mmap.mmap(opened_file.fileno(), 0, access=mmap.ACCESS_READ)
         self._use(memory, header, covariances)
 
     def _use(self, memory: mmap.mmap, header: Header, covariances: bytes) -> None:
