@@ -124,4 +124,5 @@ def _entries(block: str) -> list[tuple[str, str]]:
 
 def _escape(text: str) -> str:
     """Return text as Markdown in a table: no cell ends, no HTML, no emphasis by accident."""
-    return re.sub(r"([|<>*_\[\]`])", r"\\\1", text)
+    # A word between colons would become an emoji.
+    return re.sub(r":(?=\w+:)", "&#58;", re.sub(r"([|<>*_\[\]`])", r"\\\1", text))
