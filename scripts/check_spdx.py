@@ -26,6 +26,8 @@ SKIPPED = (
     "src/ros/*_msgs/*",
     "src/ros/*_interfaces/*",
     "src/ros/std_srvs/*",
+    "src/ros/robot_localization/*",
+    "src/ros/unitree_go/*",
     "src/ros/rmw_dds_common/*",
     *(f"src/ros/turtlesim/{part}" for part in ("__init__.py", "msg/*", "srv/*", "action/*")),
     "*/static/*",

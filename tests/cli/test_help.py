@@ -73,7 +73,7 @@ def test_options_of_the_same_name_have_the_same_text():
         if command.name == "run":
             continue  # Its --prefix is a command, as in ros2 run.
         for parameter in command.params:
-            if parameter.name == "prefixes":
+            if parameter.name in {"prefixes", "namespaces"}:
                 continue  # Those of merged recordings also apply to topics.
             for name in {"--domain", "--keep", "--namespace", "--port", "--prefix"} & set(parameter.opts):
                 texts.setdefault(name, set()).add((parameter.metavar, parameter.help))
