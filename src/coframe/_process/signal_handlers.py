@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Signal handlers that forked child processes do not inherit."""
+"""Signal handlers that forked child processes do not inherit, and the exit code after Ctrl-C."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ from collections.abc import Callable
 from types import FrameType
 from typing import Any
 
-__all__ = ["SignalHandlers", "clear_handled_interrupt"]
+__all__ = ["SIGINT_EXIT_CODE", "SignalHandlers", "clear_handled_interrupt"]
+
+SIGINT_EXIT_CODE = 130  # 128 + SIGINT, as in shells
 
 _Handler = Callable[[int, FrameType | None], object]
 

@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from coframe._process.optional_imports import CLI_PACKAGES, extra_of, pip_install
-from coframe._process.signal_handlers import clear_handled_interrupt
+from coframe._process.signal_handlers import SIGINT_EXIT_CODE, clear_handled_interrupt
 from coframe.cli.commands import COMMANDS
 from coframe.cli.streams import (
     accept_any_encoding,
@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from collections.abc import Collection
 
 __all__ = ["main", "run"]
-
-_INTERRUPTED = 130  # exit code: 128 + SIGINT, as in shells
 
 
 def main() -> None:
@@ -52,9 +50,9 @@ def run(words: list[str], *, program: str = "coframe", shown: Collection[str] | 
         finally:
             flush_output()
     except ModuleNotFoundError as error:
-        sys.exit(_what_to_install(error, words))
+        sys.exit(_missing_package_message(error, words))
     except KeyboardInterrupt:  # Ctrl-C during the imports.
-        sys.exit(_INTERRUPTED)
+        sys.exit(SIGINT_EXIT_CODE)
     except BrokenPipeError:  # The reader of a pipe, such as `head`, closed it.
         discard_output()
         sys.exit(1)
@@ -65,7 +63,7 @@ def run(words: list[str], *, program: str = "coframe", shown: Collection[str] | 
         clear_handled_interrupt()
 
 
-def _what_to_install(error: ModuleNotFoundError, words: list[str]) -> str:
+def _missing_package_message(error: ModuleNotFoundError, words: list[str]) -> str:
     """Return the message about a missing package; re-raise the error for any other module."""
     package = (error.name or "").partition(".")[0]
     if package in CLI_PACKAGES:

@@ -15,6 +15,7 @@ from click.exceptions import Abort, Exit
 import coframe
 from coframe._base_error import CoframeError
 from coframe._process.plugins import Plugin, PluginError, plugins
+from coframe._process.signal_handlers import SIGINT_EXIT_CODE
 from coframe.cli.commands import COMMANDS
 from coframe.cli.declaration import CommandGroup
 from coframe.distributions import NAMES, current
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
 __all__ = ["PLUGINS", "CommandLine"]
 
 PLUGINS = "coframe.commands"  # the entry point group whose objects are click commands
-_INTERRUPTED = 130  # exit code: 128 + SIGINT, as in shells
 _DESCRIPTIONS = {
     "coframe": "ROS 2's transform system (tf2) as one pip install: any frame, any time, on any machine.\n\n"
     "Example: coframe demo",
@@ -90,7 +90,7 @@ class CommandLine(CommandGroup):
         try:
             return super().invoke(ctx)
         except KeyboardInterrupt:
-            raise Exit(_INTERRUPTED) from None
+            raise Exit(SIGINT_EXIT_CODE) from None
         except (Abort, Exit, OSError, click.ClickException):
             raise
         except Exception as error:

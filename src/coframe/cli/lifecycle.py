@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from click.exceptions import Exit
 
 from coframe._base_error import CoframeError, CoframeWarning
-from coframe._process.signal_handlers import SignalHandlers
+from coframe._process.signal_handlers import SIGINT_EXIT_CODE, SignalHandlers
 from coframe.cli.output import fail, warn
 
 if TYPE_CHECKING:
@@ -26,7 +26,6 @@ __all__ = ["run_to_completion", "run_until_interrupted"]
 # Windows has no SIGHUP.
 _END_SIGNALS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
 _ARGUMENT = re.compile(r"\b([a-z0-9_]+)=(True|\"[^\"]*\")")
-_INTERRUPTED = 130  # exit code: 128 + SIGINT, as in shells
 
 
 @contextlib.contextmanager
@@ -62,7 +61,7 @@ def run_to_completion() -> Iterator[None]:
         except KeyboardInterrupt:
             # At exit, Python runs several garbage collections, which take a second with millions of objects.
             gc.freeze()
-            raise Exit(_INTERRUPTED) from None
+            raise Exit(SIGINT_EXIT_CODE) from None
 
 
 @contextlib.contextmanager

@@ -10,6 +10,7 @@ import time
 from typing import TYPE_CHECKING, Any
 
 import tf2_ros
+from coframe._process.signal_handlers import SIGINT_EXIT_CODE
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
 __all__ = ["main"]
 
 _DELAY = 20.0  # seconds
-_INTERRUPTED = 130  # exit code: 128 + SIGINT
 _OFFSET = 5  # seconds
 _DROPOUT, _PERIOD = 1.0, 4.0  # seconds
 
@@ -91,7 +91,7 @@ def main() -> None:
         _FAULTS[fault](module)
         module.main()
     except KeyboardInterrupt:  # Ctrl-C before the node handles it
-        sys.exit(_INTERRUPTED)
+        sys.exit(SIGINT_EXIT_CODE)
 
 
 if __name__ == "__main__":
