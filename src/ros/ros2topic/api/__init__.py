@@ -6,6 +6,7 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING, Any
 
+from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
 from rosidl_runtime_py.utilities import get_message
 
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ _PERIOD = 0.1  # seconds between two looks for a topic
 def get_topic_names_and_types(*, node: Node, include_hidden_topics: bool = False) -> list[tuple[str, list[str]]]:
     """Return the topics of the graph with their types."""
     topics = node.get_topic_names_and_types()
-    return [each for each in topics if include_hidden_topics or not _is_hidden(each[0])]
+    return [each for each in topics if include_hidden_topics or not topic_or_service_is_hidden(each[0])]
 
 
 def get_topic_names(*, node: Node, include_hidden_topics: bool = False) -> list[str]:
@@ -47,7 +48,3 @@ def get_msg_class(node: Node, topic: str, blocking: bool = False, include_hidden
         if types or not blocking:
             return get_message(types[0]) if types else None
         time.sleep(_PERIOD)
-
-
-def _is_hidden(name: str) -> bool:
-    return any(part.startswith("_") for part in name.split("/"))
