@@ -95,7 +95,7 @@ def stop_and_evaluate(talkers: dict[str, Any], listener: Any, recovery: float = 
     return evaluate(listener.ask(json.dumps(sent)), listener.started)
 
 
-def _under(impairment: Impairment) -> Measurement:
+def _measure_with(impairment: Impairment) -> Measurement:
     """Start a listener on an impaired network, and compare what it received with what was sent."""
     result = _received_under(impairment)
     kept = result.missing == 0 and result.gap <= RECOVERY and (result.statics or float("inf")) <= RECOVERY
@@ -118,17 +118,17 @@ _PROMISE = "no reliable message is missing, no gap above 3 s, statics within 3 s
 
 @network_case("loss_5", f"5 % of the packets are lost: {_PROMISE}")
 def _loss_5() -> Measurement:
-    return _under(Impairment(loss=0.05))
+    return _measure_with(Impairment(loss=0.05))
 
 
 @network_case("loss_10", f"10 % of the packets are lost: {_PROMISE}")
 def _loss_10() -> Measurement:
-    return _under(Impairment(loss=0.10))
+    return _measure_with(Impairment(loss=0.10))
 
 
 @network_case("loss_30", f"30 % of the packets are lost: {_PROMISE}")
 def _loss_30() -> Measurement:
-    return _under(Impairment(loss=0.30))
+    return _measure_with(Impairment(loss=0.30))
 
 
 @network_case("loss_30_arp", "30 % of the packets and of the ARP frames are lost: statics within 20 s")
@@ -139,22 +139,22 @@ def _loss_30_arp() -> Measurement:
 
 @network_case("delay_200", f"each packet is delayed by 200 ms: {_PROMISE}")
 def _delay_200() -> Measurement:
-    return _under(Impairment(delay=0.2))
+    return _measure_with(Impairment(delay=0.2))
 
 
 @network_case("duplicates", f"half of the packets arrive twice: {_PROMISE}")
 def _duplicates() -> Measurement:
-    return _under(Impairment(duplicates=0.5))
+    return _measure_with(Impairment(duplicates=0.5))
 
 
 @network_case("reordering", f"30 % of the packets are overtaken by up to 50 ms: {_PROMISE}")
 def _reordering() -> Measurement:
-    return _under(Impairment(reordered=0.3))
+    return _measure_with(Impairment(reordered=0.3))
 
 
 @network_case("bad_wireless", f"10 % loss, 50 ms delay, 10 % duplicates, 20 % reordered at once: {_PROMISE}")
 def _bad_wireless() -> Measurement:
-    return _under(Impairment(loss=0.1, delay=0.05, duplicates=0.1, reordered=0.2))
+    return _measure_with(Impairment(loss=0.1, delay=0.05, duplicates=0.1, reordered=0.2))
 
 
 @network_case("partition_15", "after 15 s without any packet: transforms again within 3 s, statics of new nodes too")

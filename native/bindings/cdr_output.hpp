@@ -57,7 +57,7 @@ class Output {
 
   // Calls `use(data, size)` for each part of the message, in order.
   template <class Use>
-  void each_part(Use&& use) const {
+  void for_each_part(Use&& use) const {
     std::size_t used = 0;
     for (const Array& array : arrays_) {
       use(bytes_.data() + used, array.after - used);
@@ -71,7 +71,7 @@ class Output {
     nb::object result = nb::steal(PyBytes_FromStringAndSize(nullptr, static_cast<Py_ssize_t>(size())));
     if (!result.is_valid()) throw nb::python_error();
     char* end = PyBytes_AS_STRING(result.ptr());
-    each_part([&end](const void* data, std::size_t length) {
+    for_each_part([&end](const void* data, std::size_t length) {
       std::memcpy(end, data, length);
       end += length;
     });

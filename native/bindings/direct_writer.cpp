@@ -27,7 +27,7 @@ void send(const Writer& writer, const Output& out) {
     return;
   }
   std::vector<dds::IoVector> parts;
-  out.each_part([&](const void* data, std::size_t size) { parts.push_back(dds::io_vector(data, size)); });
+  out.for_each_part([&](const void* data, std::size_t size) { parts.push_back(dds::io_vector(data, size)); });
   WithoutGil release;
   writer.write(parts, out.size());
 }

@@ -51,7 +51,7 @@ int encode(void* codec, PyObject* message, int of_items, coframe_send send, void
       return nullptr;
     }
     std::vector<coframe_part> parts;
-    out.each_part([&](const void* data, std::size_t size) { parts.push_back({data, size}); });
+    out.for_each_part([&](const void* data, std::size_t size) { parts.push_back({data, size}); });
     sent = send(context, parts.data(), parts.size(), out.size()) == 0 ? 1 : -1;
     return nullptr;
   });

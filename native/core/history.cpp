@@ -166,7 +166,7 @@ History::Directory* History::Directory::create(const HistoryStorage& storage, st
 }
 
 bool History::find_elsewhere(const View& samples, Stamp stamp, std::uint64_t& hint, Pair& pair) {
-  if (!samples.surrounded(stamp, hint + 1, pair)) return samples.find(stamp, pair, hint) == Found::ok;
+  if (!samples.bracket_in_chunk(stamp, hint + 1, pair)) return samples.find(stamp, pair, hint) == Found::ok;
   ++hint;
   return true;
 }

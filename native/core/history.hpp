@@ -113,7 +113,7 @@ class History {
     Found find(Stamp stamp, Pair& pair, std::uint64_t& next) const;
     // Returns whether `stamp` lies strictly between the sample `next` and the one before, both in one chunk: the case
     // of most lookups. False also if `next` is not the number of a sample.
-    bool surrounded(Stamp stamp, std::uint64_t next, Pair& pair) const {
+    bool bracket_in_chunk(Stamp stamp, std::uint64_t next, Pair& pair) const {
       const std::size_t i = next % Chunk::kSize;
       if (i == 0 || next <= begin_ || next >= end_) return false;
       const Chunk& chunk = chunk_of(next);
@@ -250,7 +250,7 @@ class History {
   bool locate(Stamp stamp, FrameId parent, std::uint64_t& hint, Edge& edge) const {
     const View samples = view();
     Pair pair;
-    if (!samples.surrounded(stamp, hint, pair) && !find_elsewhere(samples, stamp, hint, pair)) return false;
+    if (!samples.bracket_in_chunk(stamp, hint, pair) && !find_elsewhere(samples, stamp, hint, pair)) return false;
     if (pair.older->parent() != parent || pair.newer->parent() != parent) return false;
     edge.older = pair.older->numbers();
     edge.newer = pair.newer->numbers();

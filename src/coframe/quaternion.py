@@ -27,7 +27,7 @@ __all__ = [
 # Above this |sin(pitch)|, the x axis points straight up or down, and roll and yaw rotate about the same axis.
 _GIMBAL_LOCK = 1.0 - 1e-12
 # Below this sine of half an angle, two axes of Euler angles are the same.
-_EULER_LOCK = 1e-12
+_EULER_GIMBAL_LOCK = 1e-12
 
 
 def multiply(a: Array, b: Array) -> Array:
@@ -179,8 +179,8 @@ def to_euler(q: Array, seq: str) -> Array:
     first, last = half_sum - half_difference, half_sum + half_difference
     if intrinsic:  # the angles of fixed axes in reverse order
         first, last = last, first
-    one_axis = np.where(high < _EULER_LOCK, 2.0 * half_difference * (1 if intrinsic else -1), 2.0 * half_sum)
-    is_locked = (low < _EULER_LOCK) | (high < _EULER_LOCK)
+    one_axis = np.where(high < _EULER_GIMBAL_LOCK, 2.0 * half_difference * (1 if intrinsic else -1), 2.0 * half_sum)
+    is_locked = (low < _EULER_GIMBAL_LOCK) | (high < _EULER_GIMBAL_LOCK)
     first, last = np.where(is_locked, one_axis, first), np.where(is_locked, 0.0, last)
     if not is_symmetric:
         first, last = (first * sign, last) if intrinsic else (first, last * sign)

@@ -12,7 +12,15 @@ from coframe.analysis.static_command import static_command
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["BASE_FRAMES", "MissingEdge", "estimator_advice", "is_sensor_frame", "missing_edge", "unknown_mount"]
+__all__ = [
+    "BASE_FRAMES",
+    "MissingEdge",
+    "estimator_advice",
+    "is_base_frame",
+    "is_sensor_frame",
+    "missing_edge",
+    "unknown_mount",
+]
 
 # Usual pairs of parent and child, from REP-105 and common robots.
 _USUAL_EDGES = (
@@ -110,6 +118,11 @@ def estimator_advice(parent: str, child: str, node: str = "") -> str:
             "publish_tf or tf_broadcast): start it, or enable the option; localization also needs an initial pose."
         )
     return ""
+
+
+def is_base_frame(frame: str) -> bool:
+    """Return whether a frame is the base of a robot by its name without a prefix."""
+    return _without_prefix(frame) in BASE_FRAMES
 
 
 def is_sensor_frame(frame: str) -> bool:

@@ -48,7 +48,7 @@ if TYPE_CHECKING:
 
 __all__ = ["doctor"]
 
-_TEN_SECONDS = PositiveDuration("10s")
+_DEFAULT_CACHE = PositiveDuration("10s")
 _STYLES = {"error": "bold red", "warning": "yellow", "note": "cyan", "good": "green", "dim": "dim", "plain": ""}
 # --watch uses at most this fraction of a CPU core for its diagnoses.
 _CPU_SHARE = 0.006
@@ -88,14 +88,14 @@ _CPU_SHARE = 0.006
     "--duration",
     metavar="DURATION",
     type=PositiveDuration,
-    default=_TEN_SECONDS,
-    help="Observation time; with --watch, the time window; with --system, the maximum time to search for nodes.",
+    default=_DEFAULT_CACHE,
+    help="Observation time; with --watch, the time window; with --system, the maximum time of the search for nodes.",
 )
 @click.option(
     "--cache",
     metavar="DURATION",
     type=PositiveDuration,
-    default=_TEN_SECONDS,
+    default=_DEFAULT_CACHE,
     help="Cache length to assume for listeners.",
 )
 @click.option(
@@ -373,6 +373,6 @@ def _watch(observer: LiveObserver, ignore: list[str], as_json: bool) -> NoReturn
             if as_json:
                 print(json.dumps(as_data(report)), flush=True)
             else:
-                live.update(Group(*_texts(report)), refresh=True)
+                live.update(Group(*_styled_lines(report)), refresh=True)
             del report  # with all transforms of the window
             observer.listen(max(1.0, (time.process_time() - begun) / _CPU_SHARE))

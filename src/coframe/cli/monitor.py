@@ -141,11 +141,11 @@ def _tables(observation: Observation, pair: Pair, most: int | None = None) -> Gr
             rate,
             *map(_ms, figures),
         )
-        edges.add_row(*_texts(*cells, str(row.transforms)), style="red" if row.stale else "")
+        edges.add_row(*_cells(*cells, str(row.transforms)), style="red" if row.stale else "")
     publishers = _table("publisher", "messages/s", "delay ms", "p99 ms")
     for node in publisher_statistics(observation):
         delays = (_ms(node.delay), _ms(node.delay_p99))
-        publishers.add_row(*_texts(display_name(node.publisher) or "unknown", _hertz(node.rate), *delays))
+        publishers.add_row(*_cells(display_name(node.publisher) or "unknown", _hertz(node.rate), *delays))
     chain = [Text(_chain(chain_statistics(observation, *pair), pair))] if pair else []
     left = len(observation.edges) - len({(row.parent, row.child) for row in rows})
     more = [Text(f"... and {count(left, 'more edge')}; `coframe monitor --once` prints all", style="dim")]
@@ -221,7 +221,7 @@ def _hertz(rate: float | None) -> str:
     return "" if rate is None else f"{rate:.1f}"
 
 
-def _texts(*cells: str) -> list[Text]:
+def _cells(*cells: str) -> list[Text]:
     return [Text(cell, no_wrap=True, overflow="ellipsis") for cell in cells]
 
 

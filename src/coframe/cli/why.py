@@ -217,7 +217,7 @@ def _watch(config: ListenerConfig, target: str, source: str, at: str | None, win
             if as_json:
                 print(json.dumps(_data(answer)), flush=True)
             else:
-                live.update(Group(*_texts(answer, live.console)), refresh=True)
+                live.update(Group(*_styled_lines(answer, live.console)), refresh=True)
             time.sleep(1.0)
 
 
@@ -280,11 +280,11 @@ def _print(answer: _Answer, *, as_json: bool) -> None:
         print(json.dumps(_data(answer)))
         return
     console = Console(highlight=False, soft_wrap=True)
-    for text in _texts(answer, console):
+    for text in _styled_lines(answer, console):
         console.print(text)
 
 
-def _texts(answer: _Answer, console: Console) -> list[Text]:
+def _styled_lines(answer: _Answer, console: Console) -> list[Text]:
     first, *rest = with_doctor_command(_with_fix(answer.found, str(answer.found))).split("\n")
     lines = [("green" if answer.found.possible else "bold red", first), *(("", line) for line in rest)]
     for report in answer.reports:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from coframe import quaternion
-from coframe.analysis.missing_edges import BASE_FRAMES
+from coframe.analysis.missing_edges import is_base_frame
 from coframe.doctor.pose_mistakes import OPTICAL, Correction, corrections, explain
 
 if TYPE_CHECKING:
@@ -25,15 +25,15 @@ if TYPE_CHECKING:
 
 __all__ = ["WrongAxes", "is_optical", "wrong_axes"]
 
-_SMALL = np.sin(np.radians(10.0))
-_LARGE = np.cos(np.radians(25.0))
-_TILTED = np.sin(np.radians(30.0))
-_UNROTATED = np.radians(10.0)  # how far calibrated cameras are off the axes of their robot
-_ALIGNED = 0.1  # of an axis of one frame in another, at most this much off 0 or 1
-_EXACT = np.radians(3.0)
+_MAX_TILT_SINE = np.sin(np.radians(10.0))
+_MIN_ALIGNED_COSINE = np.cos(np.radians(25.0))
+_MIN_ROLLED_SINE = np.sin(np.radians(30.0))
+_MAX_UNROTATED_ANGLE = np.radians(10.0)  # how far calibrated cameras are off the axes of their robot
+_MAX_ALIGNMENT_ERROR = 0.1  # of an axis of one frame in another, at most this much off 0 or 1
+_MAX_ANGLE_ERROR = np.radians(3.0)
 _REAR = re.compile("rear|back|aft")
 _DIRECTIONS = ("forward", "left", "up", "backward", "right", "down")
-_MAX_READINGS = 2
+_MAX_CANDIDATES = 2
 
 
 class WrongAxes(NamedTuple):
@@ -61,16 +61,16 @@ def wrong_axes(observation: Observation, edge: Edge) -> WrongAxes | None:
     """Return what is wrong with the axes of an optical frame; None if a camera can be mounted in this way."""
     if _is_body_of(edge.parent, edge.child):
         return _unlike_rep103(edge)
-    chain = _static_chain(observation, edge)
+    chain = [edge] if is_base_frame(edge.parent) else [edge, *observation.mounts(edge.parent)]
     turn = _product(chain, None)
-    if chain[-1].parent.rpartition("/")[2] not in BASE_FRAMES or _REAR.search(edge.child.lower()):
+    if not is_base_frame(chain[-1].parent) or _REAR.search(edge.child.lower()):
         return None
-    if _angle(turn, _IDENTITY) < _UNROTATED:
+    if _angle(turn, _IDENTITY) < _MAX_UNROTATED_ANGLE:
         return _unrotated(edge)
     right, _, forward = _axes(turn)
     down = _axes(turn)[1]
-    is_rolled = abs(right[2]) > _TILTED or down[2] > _SMALL
-    if not is_rolled or forward[0] > _TILTED:
+    is_rolled = abs(right[2]) > _MIN_ROLLED_SINE or down[2] > _MAX_TILT_SINE
+    if not is_rolled or forward[0] > _MIN_ROLLED_SINE:
         return None
     return _corrected(chain, turn)
 
@@ -88,15 +88,15 @@ def _is_body_of(parent: str, child: str) -> bool:
 def _unlike_rep103(edge: Edge) -> WrongAxes | None:
     """Return what is wrong with the optical frame of a camera's body, whose rotation REP-103 defines."""
     turn = edge.rotations[-1]
-    if _angle(turn, OPTICAL) < 2.0 * _UNROTATED:
+    if _angle(turn, OPTICAL) < 2.0 * _MAX_UNROTATED_ANGLE:
         return None
-    if _angle(turn, _IDENTITY) < _UNROTATED:
+    if _angle(turn, _IDENTITY) < _MAX_UNROTATED_ANGLE:
         return _unrotated(edge)
     zero = np.zeros(3)
     published, expected = (np.concatenate([zero, each])[None] for each in (turn, OPTICAL))
-    found = explain(published, expected, radians=_EXACT)
+    found = explain(published, expected, radians=_MAX_ANGLE_ERROR)
     matrix = quaternion.to_matrix(turn)
-    is_aligned = bool((np.abs(np.abs(matrix) - np.round(np.abs(matrix))) < _ALIGNED).all())
+    is_aligned = bool((np.abs(np.abs(matrix) - np.round(np.abs(matrix))) < _MAX_ALIGNMENT_ERROR).all())
     if found is None and not is_aligned:
         return None
     reading = f"; it is the rotation of REP-103 if {found.reading}" if found else ""
@@ -119,24 +119,14 @@ def _corrected(chain: Sequence[Edge], turn: NDArray[np.float64]) -> WrongAxes | 
         found: dict[str, Correction] = {}
         for correction in corrections(np.concatenate([edge.values[-1, :3], edge.rotations[-1]])):
             right, down, forward = _axes(_product(chain, (edge, correction.pose[3:])))
-            if abs(right[2]) < _SMALL and down[2] < -_LARGE and forward[0] > _LARGE:
+            if abs(right[2]) < _MAX_TILT_SINE and down[2] < -_MIN_ALIGNED_COSINE and forward[0] > _MIN_ALIGNED_COSINE:
                 found.setdefault(correction.reading, correction)
         if found:
             first, *_ = found.values()
-            readings = " or ".join(f"if {reading}" for reading in list(found)[:_MAX_READINGS])
+            readings = " or ".join(f"if {reading}" for reading in list(found)[:_MAX_CANDIDATES])
             text = f"{_described(chain[0], turn)}; the camera is upright and looks forward {readings}"
             return WrongAxes(edge, text, first.fix, first.pose)
     return None
-
-
-def _static_chain(observation: Observation, edge: Edge) -> list[Edge]:
-    """Return the edge and the static edges above it, up to the base of the robot."""
-    chain = [edge]
-    for above in observation.path(edge.parent):
-        if chain[-1].parent.rpartition("/")[2] in BASE_FRAMES or not (above.static or above.constant):
-            break
-        chain.append(above)
-    return chain
 
 
 def _product(chain: Sequence[Edge], changed: tuple[Edge, NDArray[np.float64]] | None) -> NDArray[np.float64]:

@@ -89,7 +89,7 @@ def jump_cause(edge: Edge, rows: NDArray[np.intp]) -> Explanation | None:
     rows = rows[:_MAX_COMPARED]
     # Of a jump away and a jump back, only the first one leads to the wrong pose.
     found = explain(edge.poses(rows[::2] + 1), edge.poses(rows[::2]), **_tolerances(edge))
-    if found is None or not (found.specific or len(rows) >= _MIN_JUMPS):
+    if found is None or not (found.is_specific or len(rows) >= _MIN_JUMPS):
         return None
     return found
 

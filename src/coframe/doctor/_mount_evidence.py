@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from coframe import quaternion
-from coframe.analysis.missing_edges import BASE_FRAMES
+from coframe.analysis.missing_edges import is_base_frame
 from coframe.doctor.pose_mistakes import Correction, corrections
 from coframe.time import SECOND
 
@@ -27,20 +27,22 @@ if TYPE_CHECKING:
 __all__ = ["Contradiction", "gravity_contradictions", "points_contradictions"]
 
 _GRAVITY = 9.81
-_STILL = 0.05  # rad/s
-_NEAR_GRAVITY = 0.5  # m/s^2
-_MIN_STILL = 50  # messages
-_STEADY = np.radians(3.0)
-_WRONG, _RIGHT = np.radians(20.0), np.radians(3.0)  # of gravity from up
-_MAX_READINGS = 4  # With more, gravity does not show which one it is.
+_MAX_STILL_RATE = 0.05  # rad/s
+_MAX_GRAVITY_ERROR = 0.5  # m/s^2
+_MIN_STILL_MESSAGES = 50  # messages
+_MAX_STILL_TILT = np.radians(3.0)
+_MIN_WRONG_TILT, _MAX_RIGHT_TILT = np.radians(20.0), np.radians(3.0)  # of gravity from up
+_MAX_CANDIDATES = 4  # With more, gravity does not show which one it is.
 _MIN_SCANS = 4
 _MIN_POINTS = 500
 _WINDOW = 10 * SECOND
-_CELLS = (0.03, 0.01)  # of the usual range: sparse scans overlap in large cells, and small ones show small errors
+_CELL_SIZES = (0.03, 0.01)  # of the usual range: sparse scans overlap in large cells, and small ones show small errors
 _MIN_CELL = 0.1  # meters
-_OVERLAP = 0.35  # share of the cells of all scans that remain when they are joined; below it, the scans fit together
-_BETTER = 0.8  # of the cells that remain
-_IDENTITY_ANGLE = 1e-3  # radians
+_MIN_REMAINING_SHARE = (
+    0.35  # share of the cells of all scans that remain when they are joined; below it, the scans fit together
+)
+_MAX_CORRECTED_RATIO = 0.8  # of the cells that remain
+_MIN_ROTATION = 1e-3  # radians
 
 
 class Contradiction(NamedTuple):
@@ -63,9 +65,9 @@ def gravity_contradictions(observation: Observation) -> Iterator[Contradiction]:
     """Yield mounts with which the acceleration of an IMU at rest does not point up, but would by a usual mistake."""
     seen: set[str] = set()
     for imu in observation.imus:
-        up = _up(imu)
-        chain = _mounts(observation, imu.frame)
-        if up is None or imu.frame in seen or not chain or chain[-1].parent.rpartition("/")[2] not in BASE_FRAMES:
+        up = _acceleration_at_rest(imu)
+        chain = observation.mounts(imu.frame)
+        if up is None or imu.frame in seen or not chain or not is_base_frame(chain[-1].parent):
             continue
         seen.add(imu.frame)
 
@@ -76,17 +78,17 @@ def gravity_contradictions(observation: Observation) -> Iterator[Contradiction]:
 
         turns = [edge.rotations[-1] for edge in chain]
         off = tilt(turns)
-        if off < _WRONG:
+        if off < _MIN_WRONG_TILT:
             continue
         for number, edge in enumerate(chain):
-            if edge.angle < _IDENTITY_ANGLE:
+            if edge.angle < _MIN_ROTATION:
                 continue  # The sign of the acceleration is more likely to be wrong than a mount of zeros.
             tried = [
                 (tilt([*turns[:number], correction.pose[3:], *turns[number + 1 :]]), correction)
-                for correction in _distinct(edge)
+                for correction in _distinct_corrections(edge)
             ]
-            right = [(angle, correction) for angle, correction in tried if angle < _RIGHT]
-            if 0 < len(right) <= _MAX_READINGS:
+            right = [(angle, correction) for angle, correction in tried if angle < _MAX_RIGHT_TILT]
+            if 0 < len(right) <= _MAX_CANDIDATES:
                 angle, best = right[0]
                 readings = " or ".join(f"if {one.reading}" for _, one in right)
                 text = (
@@ -100,12 +102,12 @@ def gravity_contradictions(observation: Observation) -> Iterator[Contradiction]:
 def points_contradictions(observation: Observation) -> Iterator[Contradiction]:
     """Yield mounts with which the scans of a moving lidar do not fit together, but would by a usual mistake."""
     for sensor in observation.sensors:
-        chain = _mounts(observation, sensor.frame)
+        chain = observation.mounts(sensor.frame)
         scans = _window(sensor.points)
         moving = [edge for edge in observation.path(sensor.frame) if edge not in chain]
         if not chain or len(scans) < _MIN_SCANS or not any(not edge.constant for edge in moving):
             continue
-        found = (_by_overlap(sensor.topic, chain, moving, scans, share) for share in _CELLS)
+        found = (_by_overlap(sensor.topic, chain, moving, scans, share) for share in _CELL_SIZES)
         yield from islice((one for one in found if one is not None), 1)
 
 
@@ -116,7 +118,7 @@ def _by_overlap(
     times = np.concatenate([scan.times for scan in scans])
     points = np.concatenate([scan.points for scan in scans])
     number = np.repeat(np.arange(len(scans)), [len(scan.points) for scan in scans])
-    carried = _carried(moving, times)
+    carried = _base_poses(moving, times)
     if len(points) < _MIN_POINTS or carried is None:
         return None
     turn, place, known = carried
@@ -136,15 +138,15 @@ def _by_overlap(
 
     poses = [edge.last_pose[0] for edge in chain]
     published = remaining(poses)
-    if published < _OVERLAP:
+    if published < _MIN_REMAINING_SHARE:
         return None
     for position, edge in enumerate(chain):
         tried = [
             (remaining([*poses[:position], correction.pose, *poses[position + 1 :]]), correction)
-            for correction in _distinct(edge)
+            for correction in _distinct_corrections(edge)
         ]
         share, best = min(tried, key=lambda pair: pair[0])
-        if share < _BETTER * published:
+        if share < _MAX_CORRECTED_RATIO * published:
             text = (
                 f"the scans of {topic} do not fit together while the robot moves: joined, {published:.0%} of their "
                 f"cells of {size:.2g} m remain, and {share:.0%} if {best.reading}"
@@ -153,45 +155,33 @@ def _by_overlap(
     return None
 
 
-def _distinct(edge: Edge) -> list[Correction]:
+def _distinct_corrections(edge: Edge) -> list[Correction]:
     """Return the corrections of a mount with different poses, the most usual mistakes first."""
     found: dict[tuple[float, ...], Correction] = {}
     for correction in corrections(edge.last_pose[0]):
         if "camera" in correction.reading and "cam" not in edge.child.lower():
             continue
-        sign = np.where(np.arange(7) < 3, 1.0, np.sign(correction.pose[3:] @ _BIASED))
+        sign = np.where(np.arange(7) < 3, 1.0, np.sign(correction.pose[3:] @ _HEMISPHERE))
         found.setdefault(tuple(np.round(correction.pose * sign, 4).tolist()), correction)
     return list(found.values())
 
 
-_BIASED = np.array([0.1234, 0.3456, 0.5678, 1.0])  # A quaternion and its negative are the same rotation.
+_HEMISPHERE = np.array([0.1234, 0.3456, 0.5678, 1.0])  # A quaternion and its negative are the same rotation.
 
 
-def _up(imu: ObservedImu) -> Array | None:
+def _acceleration_at_rest(imu: ObservedImu) -> Array | None:
     """Return the direction of the acceleration of an IMU at rest, in its frame; None if it was not at rest."""
     size = np.linalg.norm(imu.acceleration, axis=1)
-    still = (np.linalg.norm(imu.rates, axis=1) < _STILL) & (np.abs(size - _GRAVITY) < _NEAR_GRAVITY)
-    if np.count_nonzero(still) < max(_MIN_STILL, len(still) // 2):
+    still = (np.linalg.norm(imu.rates, axis=1) < _MAX_STILL_RATE) & (np.abs(size - _GRAVITY) < _MAX_GRAVITY_ERROR)
+    if np.count_nonzero(still) < max(_MIN_STILL_MESSAGES, len(still) // 2):
         return None
     directions = imu.acceleration[still] / size[still, None]
     up = np.median(directions, axis=0)
     length = float(np.linalg.norm(up))
-    if length < 1.0 - _STEADY:
+    if length < 1.0 - _MAX_STILL_TILT:
         return None
     off = np.arccos(np.clip(directions @ (up / length), -1.0, 1.0))
-    return np.asarray(up / length) if float(np.median(off)) < _STEADY else None
-
-
-def _mounts(observation: Observation, frame: str) -> list[Edge]:
-    """Return the constant edges above a frame, up to the base of the robot or the first edge that moves."""
-    chain: list[Edge] = []
-    for edge in observation.path(frame):
-        if not (edge.static or edge.constant):
-            break
-        chain.append(edge)
-        if edge.parent.rpartition("/")[2] in BASE_FRAMES:
-            break
-    return chain
+    return np.asarray(up / length) if float(np.median(off)) < _MAX_STILL_TILT else None
 
 
 def _window(scans: Sequence[ObservedPoints]) -> Sequence[ObservedPoints]:
@@ -199,7 +189,7 @@ def _window(scans: Sequence[ObservedPoints]) -> Sequence[ObservedPoints]:
     return [scan for scan in scans if scan.stamp <= scans[0].stamp + _WINDOW]
 
 
-def _carried(moving: list[Edge], times: NDArray[np.int64]) -> tuple[Array, Array, NDArray[np.bool_]] | None:
+def _base_poses(moving: list[Edge], times: NDArray[np.int64]) -> tuple[Array, Array, NDArray[np.bool_]] | None:
     """Return the pose of the robot in the root at given times: rotations, positions, and where all edges have data."""
     turn, place = np.tile([0.0, 0.0, 0.0, 1.0], (len(times), 1)), np.zeros((len(times), 3))
     known = np.ones(len(times), dtype=bool)

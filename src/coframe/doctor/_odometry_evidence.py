@@ -20,10 +20,10 @@ if TYPE_CHECKING:
 
 __all__ = ["odometry_contradictions"]
 
-_SAME_TIME = 2 * MILLISECOND
+_MAX_TIME_DIFFERENCE = 2 * MILLISECOND
 _MIN_COMPARED = 10
 _MAX_COMPARED = 500
-_METERS, _RADIANS = 2e-3, 2e-3
+_MAX_DISTANCE, _MAX_ANGLE = 2e-3, 2e-3
 _MIN_MOTION = 0.05  # meters or radians; poses at rest could match by chance
 
 
@@ -39,7 +39,7 @@ def odometry_contradictions(observation: Observation) -> Iterator[tuple[Edge, st
         published, expected = edge.poses(rows), poses.values[others]
         if max(np.ptp(expected[:, :3], axis=0).max(), np.ptp(expected[:, 3:], axis=0).max()) < _MIN_MOTION:
             continue
-        explained = explain_either(published, expected, meters=_METERS, radians=_RADIANS)
+        explained = explain_either(published, expected, meters=_MAX_DISTANCE, radians=_MAX_ANGLE)
         if explained is None or np.isnan(explained[0].meters + explained[0].radians):
             continue
         mistake, in_transform = explained
@@ -55,5 +55,5 @@ def _matched(edge: Edge, poses: ObservedPoses) -> tuple[NDArray[np.intp], NDArra
     before = np.maximum(after - 1, 0)
     nearer = np.abs(stamps[before] - poses.stamp) < np.abs(stamps[after] - poses.stamp)
     nearest = np.where(nearer, before, after)
-    others = np.flatnonzero(np.abs(stamps[nearest] - poses.stamp) <= _SAME_TIME)[:_MAX_COMPARED]
+    others = np.flatnonzero(np.abs(stamps[nearest] - poses.stamp) <= _MAX_TIME_DIFFERENCE)[:_MAX_COMPARED]
     return order[nearest[others]], others

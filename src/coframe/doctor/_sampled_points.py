@@ -25,7 +25,7 @@ __all__ = ["sampled_points"]
 
 _MAX_MESSAGES = 12  # of a topic
 _MAX_POINTS = 1500  # of a message
-_FAR = 1e4  # meters; no lidar measures farther
+_MAX_RANGE = 1e4  # meters; no lidar measures farther
 _WINDOW = 10 * SECOND  # in which the position of a robot hardly drifts
 
 
@@ -59,7 +59,7 @@ def _sample(recording: Recording, topic: str, stamp: int, period: int) -> Observ
     except (CoframeError, DecodeError, ValueError, TypeError, AttributeError, OverflowError):
         return None
     with np.errstate(invalid="ignore", over="ignore"):
-        finite = np.isfinite(points).all(axis=1) & (np.abs(points).max(axis=1, initial=0.0) < _FAR)
+        finite = np.isfinite(points).all(axis=1) & (np.abs(points).max(axis=1, initial=0.0) < _MAX_RANGE)
     points, times = points[finite], times[finite] if times is not None else None
     sweep = max(int(times.max()) - stamp, 0) if times is not None and len(times) else 0
     some = slice(None, None, -(-len(points) // _MAX_POINTS) or 1)

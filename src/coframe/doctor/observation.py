@@ -15,6 +15,7 @@ import numpy as np
 from coframe.analysis.clock_offset import clock_offset
 from coframe.analysis.clocks import clock_of, group_by_clock
 from coframe.analysis.liveness import is_stale
+from coframe.analysis.missing_edges import is_base_frame
 from coframe.analysis.tree import FrameTrees
 from coframe.doctor._edge import Edge
 from coframe.doctor._transforms import Transforms, bare
@@ -343,6 +344,17 @@ class Observation:
     def path(self, frame: str) -> list[Edge]:
         """Return the edges from a frame up to its root, with the edges of a loop once."""
         return [self.last[name] for name in self.structure.path(frame) if name in self.last]
+
+    def mounts(self, frame: str) -> list[Edge]:
+        """Return the constant edges from a frame up to the base of its robot, or up to the first edge that moves."""
+        chain: list[Edge] = []
+        for edge in self.path(frame):
+            if not (edge.static or edge.constant):
+                break
+            chain.append(edge)
+            if is_base_frame(edge.parent):
+                break
+        return chain
 
     @cached_property
     def trees(self) -> dict[str, tuple[str, ...]]:

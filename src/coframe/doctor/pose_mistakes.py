@@ -44,13 +44,13 @@ __all__ = [
 OPTICAL = quaternion.from_rpy(np.array([-pi / 2, 0.0, -pi / 2]))
 """The rotation of an optical frame relative to the body of a camera by REP-103: z forward, x right, y down."""
 
-_METERS = 1e-3
-_RADIANS = 1e-3
-_SPECIFIC = 3  # the ranks below: an inverted transform, and the two wrong orders of quaternions
+_MAX_DISTANCE = 1e-3
+_MAX_ANGLE = 1e-3
+_FIRST_AMBIGUOUS_RANK = 3  # the ranks below: an inverted transform, and the two wrong orders of quaternions
 _MIN_RATIO = 5.0  # A mistake must explain at least this multiple of what remains.
-_EXACT = 2e-5  # radians, for angles that were typed in degrees
-_LOCKED = 1e-3  # radians from a pitch of 90 degrees, where roll and yaw rotate about the same axis
-_ROUND = 5.0  # degrees; typed angles are multiples of this
+_MAX_ANGLE_ERROR = 2e-5  # radians, for angles that were typed in degrees
+_GIMBAL_LOCK = 1e-3  # radians from a pitch of 90 degrees, where roll and yaw rotate about the same axis
+_ANGLE_STEP = 5.0  # degrees; typed angles are multiples of this
 _AXES = "xyz"
 _ANGLES = ("roll", "pitch", "yaw")
 _UNITS = (
@@ -97,9 +97,9 @@ class Explanation(NamedTuple):
     rank: int = 0
 
     @property
-    def specific(self) -> bool:
+    def is_specific(self) -> bool:
         """Whether poses hardly ever match by chance: the mistake changes all their numbers."""
-        return self.rank < _SPECIFIC and not np.isnan(self.meters + self.radians)
+        return self.rank < _FIRST_AMBIGUOUS_RANK and not np.isnan(self.meters + self.radians)
 
     def text(self, other: str, pose: str = "the pose") -> str:
         """Return the explanation as a sentence: with what the pose agrees, within what, and under which condition."""
@@ -120,7 +120,7 @@ class Correction(NamedTuple):
 
 
 def explain(
-    published: Array, expected: Array, *, meters: float = _METERS, radians: float = _RADIANS
+    published: Array, expected: Array, *, meters: float = _MAX_DISTANCE, radians: float = _MAX_ANGLE
 ) -> Explanation | None:
     """Return the mistake that makes the expected poses the published ones; None if no usual mistake does.
 
@@ -141,7 +141,7 @@ def explain(
     far, turned = _distance(place, right_place), _rotation(turn, right_turn)
     if far <= meters and turned <= radians:
         return None
-    whole = _whole(published, expected, (meters, radians), (far, turned))
+    whole = _explain_inverse(published, expected, (meters, radians), (far, turned))
     if whole is not None:
         return whole
     moved = _first(_translations(right_turn), place, right_place, meters, _distance) if far > meters else None
@@ -159,7 +159,7 @@ def explain(
 
 
 def explain_either(
-    first: Array, second: Array, *, meters: float = _METERS, radians: float = _RADIANS
+    first: Array, second: Array, *, meters: float = _MAX_DISTANCE, radians: float = _MAX_ANGLE
 ) -> tuple[Explanation, bool] | None:
     """Return the least ambiguous mistake that explains how two poses differ, either of which may be the wrong one.
 
@@ -207,7 +207,7 @@ _BODY = "its rotation is that of the camera's body, not that of its optical fram
 _BODY_FIX = "Add the rotation of optical frames (REP-103): roll -90, pitch 0, yaw -90 degrees."
 
 
-def _whole(
+def _explain_inverse(
     published: Array, expected: Array, limits: tuple[float, float], difference: tuple[float, float]
 ) -> Explanation | None:
     inverse = inverted(published)
@@ -265,7 +265,7 @@ def angle_triples(turn: Array) -> list[Array]:
     rpy = quaternion.to_rpy(turn)
     roll, pitch, yaw = rpy.T
     triples = [rpy, np.stack([roll + pi, pi - pitch, yaw + pi], axis=1)]
-    if (np.abs(np.abs(pitch) - pi / 2) < _LOCKED).all():
+    if (np.abs(np.abs(pitch) - pi / 2) < _GIMBAL_LOCK).all():
         # Only the sum or the difference of roll and yaw is known.
         sum_ = roll - np.sign(pitch) * yaw
         zero = np.zeros_like(roll)
@@ -307,7 +307,7 @@ def _degrees_as_radians(turn: Array) -> list[Array]:
     found = []
     for triple in angle_triples(turn):
         angles = np.degrees(triple)
-        for values in (angles, np.round(angles / _ROUND) * _ROUND):
+        for values in (angles, np.round(angles / _ANGLE_STEP) * _ANGLE_STEP):
             if np.abs(values - angles).max() > 0.1:  # degrees; not round
                 continue
             for turns in product((0.0, -360.0, 360.0), repeat=3):
@@ -328,9 +328,9 @@ def _round_degrees(turn: Array) -> list[Array]:
 
 
 def _round_choices(angle: float) -> list[float]:
-    values = np.arange(-360.0, 360.0 + _ROUND, _ROUND)
+    values = np.arange(-360.0, 360.0 + _ANGLE_STEP, _ANGLE_STEP)
     off = np.abs((values - angle + pi) % (2.0 * pi) - pi)
-    return [float(value) for value in values[off < _EXACT]]
+    return [float(value) for value in values[off < _MAX_ANGLE_ERROR]]
 
 
 def _radians_as_degrees(turn: Array) -> list[Array]:
@@ -375,7 +375,7 @@ def _reordered(order: tuple[int, ...], turn: Array) -> list[Array]:
     return [turn[:, order]]
 
 
-def _turned(axis: int, angle: int) -> Mistake:
+def _fixed_turn(axis: int, angle: int) -> Mistake:
     turn = quaternion.from_rpy(np.radians(angle) * np.eye(3)[axis])
     axes = " (its axes are those of OpenGL: y up, z backward)" if (axis, angle) == (0, 180) else ""
     return Mistake(
@@ -390,7 +390,7 @@ def _identity(turn: Array) -> list[Array]:
     return [np.broadcast_to(np.array([0.0, 0.0, 0.0, 1.0]), turn.shape)]
 
 
-def _nothing(_: Array) -> list[Array]:
+def _no_candidates(_: Array) -> list[Array]:
     return []
 
 
@@ -435,7 +435,7 @@ _ROTATIONS = (
         partial(_times, OPTICAL),
         partial(_times, quaternion.inverse(OPTICAL)),
     ),
-    _turned(0, 180),
+    _fixed_turn(0, 180),
     Mistake("its angle is halved (the angle was used for the half angle)", _HALF, _doubled, _halved),
     Mistake("its angle is doubled (the angle was halved twice)", _HALF, _halved, _doubled),
     *(_permutation((a, b, c)) for a, b, c in ((2, 1, 0), *permutations(range(3))) if (a, b, c) != (0, 1, 2)),
@@ -456,16 +456,16 @@ _ROTATIONS = (
         for axis in range(3)
     ),
     Mistake(
-        "its rotation is set: the published one is the identity", "Set the rotation.", _identity, _nothing
+        "its rotation is set: the published one is the identity", "Set the rotation.", _identity, _no_candidates
     ),
     *(
         Mistake(
             f"its {_ANGLES[axis]} is set: the published one is 0", f"Set {_ANGLES[axis]}.",
-            partial(_without_angle, axis), _nothing,
+            partial(_without_angle, axis), _no_candidates,
         )
         for axis in range(3)
     ),
-    *(_turned(axis, angle) for axis, angle in product(range(3), (180, 90, -90)) if (axis, angle) != (0, 180)),
+    *(_fixed_turn(axis, angle) for axis, angle in product(range(3), (180, 90, -90)) if (axis, angle) != (0, 180)),
 )  # fmt: skip
 
 
@@ -484,7 +484,7 @@ def _scaled(factor: float, place: Array) -> list[Array]:
     return [place * factor]
 
 
-def _swapped(order: tuple[int, ...], place: Array) -> list[Array]:
+def _reordered_axes(order: tuple[int, ...], place: Array) -> list[Array]:
     return [place[:, order]]
 
 
@@ -523,8 +523,8 @@ def _translations(turn: Array) -> list[Mistake]:
                 Mistake(
                     f"its translation is read in the order {names}",
                     "Check the order of the coordinates: x forward, y left, z up.",
-                    partial(_swapped, order),
-                    partial(_swapped, back),
+                    partial(_reordered_axes, order),
+                    partial(_reordered_axes, back),
                 )
             )
     found.append(
@@ -543,7 +543,9 @@ def _translations(turn: Array) -> list[Mistake]:
             lambda place: [-quaternion.rotate(turn, place)],
         )
     )
-    found.append(Mistake("its translation is set: the published one is 0", "Set the translation.", _origin, _nothing))
+    found.append(
+        Mistake("its translation is set: the published one is 0", "Set the translation.", _origin, _no_candidates)
+    )
     return found
 
 

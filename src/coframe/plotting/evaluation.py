@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 __all__ = ["check_edge", "evaluate", "trajectory_curves"]
 
 _BATCH = 5_000  # messages
-_REPORTED = 500  # messages between two reports of the progress
+_PROGRESS_INTERVAL = 500  # messages between two reports of the progress
 _MAX_LISTED_NAMES = 12  # names in a hint
 
 
@@ -155,7 +155,7 @@ def _field_curve(
             value = float("nan")
         stamps.append(message.stamp)
         values.append(value)
-        if done % _REPORTED == 0 or done == total:
+        if done % _PROGRESS_INTERVAL == 0 or done == total:
             report(expression.text, done, total)
     if values and missing == len(values):
         raise PlotError(f"{expression.text}: no message on {topic} has an element with this index")

@@ -26,7 +26,7 @@ from coframe.errors import PlotError
 from coframe.transform.quantities import POSE_QUANTITIES
 
 __all__ = [
-    "TIMINGS",
+    "TIMING_QUANTITIES",
     "Expression",
     "FieldExpression",
     "PoseExpression",
@@ -34,10 +34,10 @@ __all__ = [
     "parse_expression",
 ]
 
-TIMINGS = ("rate", "delay")
-_EDGE_QUANTITIES = (*POSE_QUANTITIES, *TIMINGS)
+TIMING_QUANTITIES = ("rate", "delay")
+_EDGE_QUANTITIES = (*POSE_QUANTITIES, *TIMING_QUANTITIES)
 _ARROW = re.compile(r"->|→|:")
-_STEP = re.compile(r"([A-Za-z_]\w*)((?:\[-?\d+\])*)", re.ASCII)
+_FIELD_STEP = re.compile(r"([A-Za-z_]\w*)((?:\[-?\d+\])*)", re.ASCII)
 _EXAMPLES = (
     "Examples: odom->base_link.x (or odom:base_link.x), /odom.twist.twist.linear.x, /scan.ranges[0], /tf.rate, "
     "odom->base_link.delay."
@@ -115,7 +115,7 @@ def parse_expression(text: str) -> Expression:
         return _parse_topic(written)
     if written.endswith("-"):
         raise PlotError(
-            f"{text!r} is not complete: the shell has taken '>' as a redirection",
+            f"{text!r} is not complete: the shell interprets '>' as a redirection",
             hint="Write the expression in quotation marks, or with a colon: odom:base_link.x",
         )
     raise PlotError(
@@ -136,7 +136,7 @@ def _parse_frames(text: str) -> Expression:
             hint=f"{did_you_mean(quantity if name else '', _EDGE_QUANTITIES)} "
             f"Quantities of two frames: {', '.join(_EDGE_QUANTITIES)}.".lstrip(),
         )
-    if quantity in TIMINGS:
+    if quantity in TIMING_QUANTITIES:
         return TimingExpression(text, quantity, edge=(target, name))
     return PoseExpression(text, target, name, quantity)
 
@@ -144,15 +144,16 @@ def _parse_frames(text: str) -> Expression:
 def _parse_topic(text: str) -> Expression:
     topic, dot, rest = text.partition(".")
     if not dot or not rest:
+        timings = ", ".join(f"{topic}.{each}" for each in TIMING_QUANTITIES)
         raise PlotError(
-            f"{text!r} contains a topic but not what to plot",
-            hint=f"Add a numeric field of its messages, or one of: {', '.join(f'{topic}.{each}' for each in TIMINGS)}.",
+            f"{text!r} contains a topic, but no field or quantity to plot",
+            hint=f"Add a numeric field of its messages, or one of: {timings}.",
         )
-    if rest in TIMINGS:
+    if rest in TIMING_QUANTITIES:
         return TimingExpression(text, rest, topic=topic)
     path: list[str | int] = []
     for step in rest.split("."):
-        match = _STEP.fullmatch(step)
+        match = _FIELD_STEP.fullmatch(step)
         if match is None:
             raise PlotError(
                 f"{text!r} is not valid at {step!r}", hint=f"Write fields as .name or .name[0]. {_EXAMPLES}"

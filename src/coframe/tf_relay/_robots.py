@@ -50,8 +50,8 @@ def choose_robots(
     Raises:
         ValueError: There is no robot, a prefix is invalid, or a topic is both an input and an output.
     """
-    prefixes = sources if isinstance(sources, Mapping) else dict.fromkeys(_texts(sources), "")
-    topics = {f"/{name.strip('/')}/tf": "" for name in _texts(names)}
+    prefixes = sources if isinstance(sources, Mapping) else dict.fromkeys(_split_names(sources), "")
+    topics = {f"/{name.strip('/')}/tf": "" for name in _split_names(names)}
     topics |= {qualified(topic): own for topic, own in prefixes.items()}
     robots = [_robot(topic, own, prefix, name_as_prefix=prefix_each) for topic, own in topics.items()]
     if not robots:
@@ -85,5 +85,5 @@ def _robot(topic: str, prefix: str, common_prefix: str, *, name_as_prefix: bool)
     return RobotTopics(name, topic, f"{common_prefix}{prefix}")
 
 
-def _texts(texts: Iterable[str] | str) -> list[str]:
+def _split_names(texts: Iterable[str] | str) -> list[str]:
     return [text.strip() for text in (texts.split(",") if isinstance(texts, str) else texts) if text.strip(" /")]

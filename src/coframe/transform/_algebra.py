@@ -144,7 +144,7 @@ class TransformAlgebra(TransformValues):
         rows = np.empty((int(np.prod(shape)), 7))
         screw = is_screw(interpolation)
         _core.interpolate_batches(pose_rows(self, shape), pose_rows(other, shape), given, screw, rows)
-        found = _of_rows(rows, shape, target, source, _between_stamps(self, other, s))
+        found = _of_rows(rows, shape, target, source, _interpolated_stamps(self, other, s))
         if self.covariance is None or other.covariance is None:
             return found
         ends = [_covariance.in_body(known_covariance(t, ""), t.rotation) for t in (self, other)]
@@ -368,7 +368,7 @@ def _with(transform: TransformValues, covariance: Array | None, exact_edges: tup
     return derived(t, q, transform.target, transform.source, stamp, covariance, tuple(dict.fromkeys(exact_edges)))
 
 
-def _between_stamps(a: TransformValues, b: TransformValues, fraction: Array) -> Any:
+def _interpolated_stamps(a: TransformValues, b: TransformValues, fraction: Array) -> Any:
     first, last = any_stamp(a), any_stamp(b)
     if first is None or last is None:
         return None

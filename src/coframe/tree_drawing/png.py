@@ -27,7 +27,7 @@ _MAX_SIDE = 16_000.0  # Pixels of the image; matplotlib supports 2**16, at a mem
 _MAX_PIXELS = 100e6
 # The layout is for Helvetica; matplotlib's default font, DejaVu Sans, is wider.
 _FONT_SCALE = 0.92
-_CORNER = 4.0
+_CORNER_RADIUS = 4.0
 _FONT = "DejaVu Sans"
 _POINT = 0.75  # points of 1/72 inch per pixel of the drawing
 
@@ -51,7 +51,7 @@ def as_png(forest: Forest, title: str) -> bytes:
 
 def _draw(axes: Axes, shape: Box | Line | Label) -> None:
     if isinstance(shape, Box):
-        corner = f"round,pad=0,rounding_size={_CORNER}"
+        corner = f"round,pad=0,rounding_size={_CORNER_RADIUS}"
         box = FancyBboxPatch((shape.x, shape.y), shape.width, shape.height, boxstyle=corner, linewidth=_POINT)
         box.set(facecolor=shape.fill, edgecolor=shape.border)
         axes.add_patch(box)

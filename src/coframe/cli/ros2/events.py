@@ -30,7 +30,7 @@ __all__ = ["echo_action", "echo_service"]
 
 _SERVICE_EVENT = "_service_event"
 _EVENT_TYPES = {0: "REQUEST_SENT", 1: "REQUEST_RECEIVED", 2: "RESPONSE_SENT", 3: "RESPONSE_RECEIVED"}
-_HOW_TO_ENABLE = "Its node enables them: configure_introspection(clock, qos, ServiceIntrospectionState.CONTENTS)."
+_ENABLE_HINT = "Its node enables them: configure_introspection(clock, qos, ServiceIntrospectionState.CONTENTS)."
 
 
 class _Format(NamedTuple):
@@ -72,7 +72,7 @@ def echo_service(
         kind = service_type or _type(node.get_service_names_and_types, service_name, "service")
         event = _event_class(load_type(kind, get_service), kind)
         stream = MessageStream(node, f"{service_name}/{_SERVICE_EVENT}", event, _event_qos())
-        _say_if_silent(node, [f"{service_name}/{_SERVICE_EVENT}"], f"service {service_name}")
+        _warn_if_not_published(node, [f"{service_name}/{_SERVICE_EVENT}"], f"service {service_name}")
         for message in stream.messages():
             print_bounded(_text(message, form))
 
@@ -159,10 +159,10 @@ def _interfaces(name: str, action_class: Any) -> list[tuple[str, str, Any, Any]]
     return found
 
 
-def _say_if_silent(node: Node, topics: list[str], what: str) -> None:
+def _warn_if_not_published(node: Node, topics: list[str], what: str) -> None:
     """Print a warning if no events are published."""
     if not wait_until(lambda: any(node.count_publishers(topic) for topic in topics)):
-        warn(f"The {what} publishes no events yet: waiting for them. {_HOW_TO_ENABLE}")
+        warn(f"The {what} publishes no events yet: waiting for them. {_ENABLE_HINT}")
 
 
 def _text(message: Any, form: _Format) -> str:

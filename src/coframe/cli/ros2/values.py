@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["documents_of", "read_values", "yaml_value"]
 
 MAX_FILE = 16 << 20  # bytes of a file with messages
-_WIDTH = 60  # number of characters of an invalid text to show
+_MAX_EXCERPT = 60  # characters of an invalid text in an error message
 _MAX_EXAMPLE_LENGTH = 150
 # Error messages of the YAML parsers (C and Python), and what they mean for the user.
 _REASONS = {
@@ -53,8 +53,8 @@ def yaml_value(text: str, what: str, hint: str = "") -> Any:
         row, column = position if position[0] < len(lines) else (len(lines) - 1, len(lines[-1]))
         reason = next((ours for theirs, ours in _REASONS.items() if theirs in str(error)), str(error))
         where = f"line {row + 1}, character {column + 1}" if len(lines) > 1 else f"character {column + 1}"
-        start = max(0, column - _WIDTH // 2)
-        shown = lines[row][start : start + _WIDTH]
+        start = max(0, column - _MAX_EXCERPT // 2)
+        shown = lines[row][start : start + _MAX_EXCERPT]
         pointer = f"    {shown}\n    {' ' * (column - start)}^"
         fail(f"{what} is not valid YAML at {where}: {reason}", hint, code=2, details=pointer)
 
@@ -88,7 +88,7 @@ def read_values(message: Any, text: str) -> Callable[[Any], None]:
     if values is None:
         values = {}
     if not isinstance(values, dict):
-        fail(f"The passed value needs to be a dictionary in YAML format, not {text[:_WIDTH]!r}", example, code=2)
+        fail(f"The passed value needs to be a dictionary in YAML format, not {text[:_MAX_EXCERPT]!r}", example, code=2)
     for field in values:
         if isinstance(field, str) and ":" in field and values[field] is None:
             fail(f"VALUES: {field!r} is not a field: a space is missing after the colon", example, code=2)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe._output.formatting import count, duration, join_names
-from coframe.analysis.missing_edges import BASE_FRAMES, estimator_advice, is_sensor_frame
+from coframe.analysis.missing_edges import BASE_FRAMES, estimator_advice, is_base_frame, is_sensor_frame
 from coframe.analysis.similar_frames import similar_frames
 from coframe.analysis.static_command import static_command
 from coframe.doctor._finding import Finding, Severity
@@ -107,7 +107,7 @@ def _missing_frame(observation: Observation, frame: str, publishers: tuple[str, 
     root = next(iter(observation.trees))
     known = [f"{prefix}{slash}{usual}" for usual in ("map", "odom", *BASE_FRAMES)]
     known = [usual for usual in known if usual in observation.frames]
-    bases = [usual for usual in known if usual.rpartition("/")[2] in BASE_FRAMES]
+    bases = [usual for usual in known if is_base_frame(usual)]
     if name in {"odom", "map"}:
         below = [usual for usual in known if usual.rpartition("/")[2] == "odom"] if name == "map" else []
         node = publishers[0] if name == "odom" and len(publishers) == 1 else ""
@@ -117,7 +117,7 @@ def _missing_frame(observation: Observation, frame: str, publishers: tuple[str, 
         return estimator_advice(above, frame) or f"Start the node that publishes the transforms of {frame!r}."
     if is_sensor_frame(frame):
         # The mount is a pose on the robot, not in the world.
-        bases = bases or [other for other in observation.frames if other.rpartition("/")[2] in BASE_FRAMES]
+        bases = bases or [other for other in observation.frames if is_base_frame(other)]
         command = static_command(bases[-1] if bases else root, frame)
         return (
             f"No node publishes {frame!r}: start the node that does, such as a static broadcaster or "

@@ -27,41 +27,41 @@ __all__ = ["CODE", "find"]
 
 CODE = "TF021"
 _ROUND_DEGREES = (30, 45, 60, 90, 120, 135, 150, 180, 270)
-_CLOSE = 2e-5  # radians, of a rotation about one axis
-_EXACT = 5e-7  # radians, of one of several angles
+_MAX_ERROR_ONE_AXIS = 2e-5  # radians, of a rotation about one axis
+_MAX_ERROR_SEVERAL_AXES = 5e-7  # radians, of one of several angles
 _UNITS = (("mm", 1e3), ("cm", 1e2))
 _MIN_MOUNT = 5e-3  # meters
-_BELOW = -0.5  # meters
-_LEVEL = 0.2  # meters, and twice the sine of half an angle
-_TURNED = 1e-3  # radians
-_SEEING = {
+_MIN_HEIGHT = -0.5  # meters; a sensor cannot be this far below the ground
+_MAX_PLANAR_DEVIATION = 0.2  # meters, and twice the sine of half an angle
+_MIN_ROTATION = 1e-3  # radians
+_CAMERA_AND_LIDAR_TYPES = {
     f"sensor_msgs/msg/{name}"
     for name in ("CameraInfo", "CompressedImage", "Image", "LaserScan", "MultiEchoLaserScan", "PointCloud2")
 }
 _MAX_DISTANCE = 10.0  # meters between two frames of a robot
 _MIN_ABSURD_DISTANCE = 1e6  # meters; it would be a kilometer in millimeters
-_WORLDS = ("world", "map", "odom", "earth", "utm", "ecef", "enu", "global", "ned")
+_WORLD_FRAMES = ("world", "map", "odom", "earth", "utm", "ecef", "enu", "global", "ned")
 
 
 def find(observation: Observation) -> Iterator[Finding]:
     """Yield findings for edges that do not move, on any topic."""
     mounts = [edge for edge in observation.edges if edge.static or edge.constant]
     for edge in mounts:
-        turned = list(_optical(observation, edge)) if is_optical(edge) else []
-        yield from turned or _degrees(edge)
+        turned = list(_wrong_optical_axes(observation, edge)) if is_optical(edge) else []
+        yield from turned or _degrees_as_radians(edge)
         yield from _other_units(edge, mounts)
     yield from _below_ground(observation)
 
 
-def _degrees(edge: Edge) -> Iterator[Finding]:
+def _degrees_as_radians(edge: Edge) -> Iterator[Finding]:
     """Yield a finding for an angle that is a round number of degrees used as radians."""
     axes = np.abs(edge.rotations[-1, :3]) > 1e-6
     if np.count_nonzero(axes) == 1:
         x, w = float(edge.rotations[-1, :3][axes][0]), float(edge.rotations[-1, 3])
         angles = [np.where(axes, 2.0 * np.arctan2(x, w), 0.0)]
-        limit = _CLOSE
+        limit = _MAX_ERROR_ONE_AXIS
     else:
-        angles, limit = [triple[0] for triple in angle_triples(edge.rotations[-1:])], _EXACT
+        angles, limit = [triple[0] for triple in angle_triples(edge.rotations[-1:])], _MAX_ERROR_SEVERAL_AXES
     for triple in angles:
         for name, axis, angle in zip(("roll", "pitch", "yaw"), "xyz", triple.tolist(), strict=True):
             for number in (sign * size for size in _ROUND_DEGREES for sign in (1, -1)):
@@ -115,10 +115,10 @@ def _likely_units(edge: Edge, mounts: list[Edge]) -> list[tuple[str, float]]:
 
 def _is_in_world(edge: Edge) -> bool:
     names = {edge.parent.rpartition("/")[2].lower(), edge.child.rpartition("/")[2].lower()}
-    return any(name.startswith(world) for name in names for world in _WORLDS)
+    return any(name.startswith(world) for name in names for world in _WORLD_FRAMES)
 
 
-def _optical(observation: Observation, edge: Edge) -> Iterator[Finding]:
+def _wrong_optical_axes(observation: Observation, edge: Edge) -> Iterator[Finding]:
     """Yield a finding for an optical frame in which no camera can look: by REP-103 its z points forward, x right."""
     found = wrong_axes(observation, edge)
     if found is not None:
@@ -132,7 +132,7 @@ def _below_ground(observation: Observation) -> Iterator[Finding]:
     """Yield a note for a camera or lidar below the ground on which its robot drives."""
     seen = set()
     for sensor in observation.sensors:
-        if sensor.type not in _SEEING or sensor.frame in seen:
+        if sensor.type not in _CAMERA_AND_LIDAR_TYPES or sensor.frame in seen:
             continue
         seen.add(sensor.frame)
         chain = observation.path(sensor.frame)
@@ -141,20 +141,21 @@ def _below_ground(observation: Observation) -> Iterator[Finding]:
         if len(chain) - len(moving) != 1 or mount is not chain[0] or mount is None:
             continue  # of several mounts, any may be wrong
         is_planar = moving and all(
-            np.abs(edge.values[:, 2]).max() < _LEVEL and np.abs(edge.rotations[:, :2]).max() < _LEVEL / 2
+            np.abs(edge.values[:, 2]).max() < _MAX_PLANAR_DEVIATION
+            and np.abs(edge.rotations[:, :2]).max() < _MAX_PLANAR_DEVIATION / 2
             for edge in moving
         )
-        if not is_planar or mount.values[-1, 2] > _BELOW:
+        if not is_planar or mount.values[-1, 2] > _MIN_HEIGHT:
             continue
-        yield from _under(mount)
+        yield from _below_ground_finding(mount)
 
 
-def _under(mount: Edge) -> Iterator[Finding]:
+def _below_ground_finding(mount: Edge) -> Iterator[Finding]:
     pose = mount.last_pose
     inverse = inverted(pose)[0]
     mirrored = pose[0] * np.array([1.0, 1.0, -1.0, 1.0, 1.0, 1.0, 1.0])
     inverted_text = f"the inverse of the transform is {inverse[2]:.3g} m above it; " if inverse[2] > 0.0 else ""
-    right = inverse if inverse[2] > 0.0 and mount.angle > _TURNED else mirrored
+    right = inverse if inverse[2] > 0.0 and mount.angle > _MIN_ROTATION else mirrored
     yield _finding(
         mount,
         f"{mount.child!r}, the frame of a camera or lidar, is {-mount.values[-1, 2]:.3g} m below {mount.parent!r}, "

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from coframe.errors import CoframeError
 from coframe.messages import find
-from coframe.plotting.expressions import TIMINGS
+from coframe.plotting.expressions import TIMING_QUANTITIES
 from coframe.transform.quantities import POSE_QUANTITIES
 from coframe.viewer.panels.message_fields import field_paths
 
@@ -38,7 +38,7 @@ def complete_expression(source: ViewerSource, text: str) -> list[str]:
     named = max((frame for frame in frames if rest.startswith(f"{frame}.")), key=len, default=None)
     if named is None:
         return _matching_names((f"{target}{frame}." for frame in frames), text)
-    return _matching_names((f"{target}{named}.{quantity}" for quantity in (*POSE_QUANTITIES, *TIMINGS)), text)
+    return _matching_names((f"{target}{named}.{quantity}" for quantity in (*POSE_QUANTITIES, *TIMING_QUANTITIES)), text)
 
 
 def complete_topic(source: ViewerSource, text: str) -> list[str]:
@@ -62,7 +62,7 @@ def _complete_topic_expression(source: ViewerSource, text: str) -> list[str]:
         return _matching_names((f"{name}." for name in types), text)
     message = _example(source, topic, types[topic])
     fields = [] if message is None else field_paths(message, path)
-    return _matching_names((f"{topic}.{each}" for each in (*fields, *TIMINGS)), text)
+    return _matching_names((f"{topic}.{each}" for each in (*fields, *TIMING_QUANTITIES)), text)
 
 
 def _example(source: ViewerSource, topic: str, ros_type: str) -> Any:

@@ -19,7 +19,7 @@ from coframe.viewer.protocol.encoding import encode_cloud
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_TRIED = 64  # points that are looked at: those of a cloud are close to each other
+_MAX_SAMPLED_POINTS = 64  # of each cloud; its points are close to each other
 
 __all__ = ["LASER_SCAN", "POINT_CLOUD2", "draw_cloud", "draw_scan"]
 
@@ -68,7 +68,9 @@ def _positions(cloud: Any, step: int) -> tuple[NDArray[np.float32], Vector]:
     """Return the points, (N, 3), and the point to which they are relative."""
     columns = [field_of(cloud, name).reshape(-1)[::step] for name in "xyz"]
     points = np.empty((len(columns[0]), 3), np.float32)
-    is_far = any(float(np.abs(column[:: 1 + len(column) // _TRIED]).max(initial=0)) > MAX_NEAR for column in columns)
+    is_far = any(
+        float(np.abs(column[:: 1 + len(column) // _MAX_SAMPLED_POINTS]).max(initial=0)) > MAX_NEAR for column in columns
+    )
     offset = far_offset(np.stack(columns, axis=1).astype(np.float64)) if is_far else (0.0, 0.0, 0.0)
     for axis, column in enumerate(columns):
         with np.errstate(over="ignore"):
