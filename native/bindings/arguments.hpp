@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bindings/buffer.hpp"
+#include "coframe/endpoint_values.hpp"
 #include "core/query.hpp"
 
 namespace coframe::bindings {
@@ -63,11 +64,7 @@ LookupQuery query_of(BufferObject& buffer, nb::handle target, nb::handle source,
 LookupQuery full_query_of(BufferObject& buffer, nb::handle target, nb::handle target_stamp, nb::handle source,
                           nb::handle source_stamp, nb::handle fixed);
 
-// Returns the numbers of an array as bytes.
-template <class Number>
-nb::bytes array_bytes(const std::vector<Number>& numbers) {
-  return nb::bytes(numbers.data(), numbers.size() * sizeof(Number));
-}
+using values::array_bytes;
 
 // An object with the buffer protocol, locked while its memory is used.
 class Memory {

@@ -30,7 +30,7 @@ Batch::Missing missing_of(std::string_view on_error) {
 // Arrays with the same number of rows: stamps (in and out), poses (N, 7), and optionally twists (N, 6) and the
 // extrapolation (N,). Returns the first row without a transform, and raises for it unless it is filled with NaN.
 std::size_t lookup_rows(BufferObject& self, nb::handle target, nb::handle source, nb::handle stamps, nb::handle poses,
-                        nb::handle twists, nb::handle beyond, std::string_view on_error, unsigned threads,
+                        nb::handle twists, nb::handle extrapolated, std::string_view on_error, unsigned threads,
                         nb::handle extrapolate, bool hold) {
   constexpr int kFlags = PyBUF_WRITABLE | PyBUF_C_CONTIGUOUS;
   const Memory times(stamps, kFlags), places(poses, kFlags);
@@ -38,7 +38,8 @@ std::size_t lookup_rows(BufferObject& self, nb::handle target, nb::handle source
   const std::size_t count = times.size() / sizeof(Stamp);
   Batch batch{count, times.data<Stamp>(), rows_of(places, 7, count), nullptr, nullptr, missing_of(on_error)};
   if (!twists.is_none()) batch.twists = rows_of(rates.emplace(twists, kFlags), 6, count);
-  if (!beyond.is_none()) batch.beyond = reinterpret_cast<Stamp*>(rows_of(distances.emplace(beyond, kFlags), 1, count));
+  if (!extrapolated.is_none())
+    batch.extrapolated = reinterpret_cast<Stamp*>(rows_of(distances.emplace(extrapolated, kFlags), 1, count));
   const LookupQuery query = query_of(self, target, source, nb::none());
   const std::optional<Extrapolation> extrapolation = extrapolation_of(extrapolate, hold);
   Failure failure;
@@ -74,8 +75,8 @@ nb::bytes stamps_between(BufferObject& self, nb::handle target, nb::handle sourc
 
 void define_many_lookups(nb::class_<BufferObject>& cls) {
   cls.def("_lookup_rows", &lookup_rows, any("target"), any("source"), nb::arg("stamps"), nb::arg("poses"),
-          any("twists"), any("beyond"), nb::arg("on_error"), nb::arg("threads"), nb::arg("extrapolate") = nb::none(),
-          nb::arg("hold") = false)
+          any("twists"), any("extrapolated"), nb::arg("on_error"), nb::arg("threads"),
+          nb::arg("extrapolate") = nb::none(), nb::arg("hold") = false)
       .def("_stamps_between", &stamps_between, any("target"), any("source"), nb::arg("first"), nb::arg("last"));
 }
 

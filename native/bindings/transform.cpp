@@ -14,7 +14,7 @@ struct TransformObject {
   PyObject_HEAD
   Pose pose;
   Stamp stamp;
-  Stamp beyond;  // nanoseconds of extrapolation beyond the data
+  Stamp extrapolated;  // nanoseconds of extrapolation beyond the data
   bool has_stamp;
   PyObject* target;  // str or None
   PyObject* source;
@@ -36,9 +36,9 @@ int initialize(PyObject* object, PyObject* arguments, PyObject* keywords) {
   }
   double v[7];
   PyObject *target, *source, *stamp, *batch, *uncertainty = Py_None;
-  long long beyond = 0;
+  long long extrapolated = 0;
   if (!PyArg_ParseTuple(arguments, "dddddddOOOO|LO", &v[0], &v[1], &v[2], &v[3], &v[4], &v[5], &v[6], &target, &source,
-                        &stamp, &batch, &beyond, &uncertainty)) {
+                        &stamp, &batch, &extrapolated, &uncertainty)) {
     return -1;
   }
   const long long nanoseconds = stamp == Py_None ? 0 : PyLong_AsLongLong(stamp);
@@ -46,7 +46,7 @@ int initialize(PyObject* object, PyObject* arguments, PyObject* keywords) {
   TransformObject* self = self_of(object);
   self->pose = Pose{{v[3], v[4], v[5], v[6]}, {v[0], v[1], v[2]}};
   self->stamp = nanoseconds;
-  self->beyond = beyond;
+  self->extrapolated = extrapolated;
   self->has_stamp = stamp != Py_None;
   Py_XSETREF(self->target, Py_NewRef(target));
   Py_XSETREF(self->source, Py_NewRef(source));
@@ -78,7 +78,7 @@ PyObject* get_stamp(PyObject* object, void*) {
   return self->has_stamp ? PyLong_FromLongLong(self->stamp) : Py_NewRef(Py_None);
 }
 
-PyObject* get_beyond(PyObject* object, void*) { return PyLong_FromLongLong(self_of(object)->beyond); }
+PyObject* get_extrapolated(PyObject* object, void*) { return PyLong_FromLongLong(self_of(object)->extrapolated); }
 PyObject* get_target(PyObject* object, void*) { return or_none(self_of(object)->target); }
 PyObject* get_source(PyObject* object, void*) { return or_none(self_of(object)->source); }
 PyObject* get_batch(PyObject* object, void*) { return or_none(self_of(object)->batch); }
@@ -89,7 +89,7 @@ PyGetSetDef transform_properties[] = {
     {"stamp", get_stamp, nullptr, "Nanoseconds, or None.", nullptr},
     {"target", get_target, nullptr, "The frame that the values are expressed in, or None.", nullptr},
     {"source", get_source, nullptr, "The frame whose pose the values are, or None.", nullptr},
-    {"_beyond", get_beyond, nullptr, "Nanoseconds of extrapolation beyond the data of an edge.", nullptr},
+    {"_extrapolated", get_extrapolated, nullptr, "Nanoseconds of extrapolation beyond the data of an edge.", nullptr},
     {"_batch", get_batch, nullptr, "None, or (translations, quaternions, stamps, extrapolated) as arrays.", nullptr},
     {"_uncertainty", get_uncertainty, nullptr, "None, or (covariance, names of the edges that count as exact).",
      nullptr},
@@ -108,14 +108,14 @@ PyType_Spec transform_spec = {"coframe._core.Transform", sizeof(TransformObject)
 
 }  // namespace
 
-nb::object make_transform(const Pose& pose, Stamp stamp, nb::handle target, nb::handle source, Stamp beyond) {
+nb::object make_transform(const Pose& pose, Stamp stamp, nb::handle target, nb::handle source, Stamp extrapolated) {
   PyObject* object = static_cast<PyObject*>(PyObject_Malloc(static_cast<std::size_t>(transform_class->tp_basicsize)));
   if (!object) throw std::bad_alloc();
   PyObject_Init(object, transform_class);
   TransformObject* self = self_of(object);
   self->pose = pose;
   self->stamp = stamp;
-  self->beyond = beyond;
+  self->extrapolated = extrapolated;
   self->has_stamp = true;
   self->target = Py_NewRef(target.ptr());
   self->source = Py_NewRef(source.ptr());

@@ -12,8 +12,8 @@ namespace coframe::bindings {
 
 namespace nb = nanobind;
 
-// Creates an instance of the registered Python class. `beyond` is the extrapolation in nanoseconds.
-nb::object make_transform(const Pose& pose, Stamp stamp, nb::handle target, nb::handle source, Stamp beyond = 0);
+// Creates an instance of the registered Python class. `extrapolated` is the extrapolation in nanoseconds.
+nb::object make_transform(const Pose& pose, Stamp stamp, nb::handle target, nb::handle source, Stamp extrapolated = 0);
 
 // Creates one without a stamp.
 nb::object make_transform(const Pose& pose, nb::handle target, nb::handle source);

@@ -16,6 +16,7 @@
 #include "bindings/direct_writer.hpp"
 #include "bindings/message_codec.hpp"
 #include "bindings/relay.hpp"
+#include "coframe/endpoint_values.hpp"
 #include "core/cdr.hpp"
 #include "wire/endpoint_reader.hpp"
 #include "wire/participant.hpp"
@@ -79,31 +80,9 @@ void write_bytes(const PyWriter& writer, nb::bytes message) {
   (writer.*write)(data, size);
 }
 
-nb::tuple to_tuple(const QosProfile& qos) {
-  return nb::make_tuple(qos.depth, qos.reliable, qos.transient_local, qos.keep_all, qos.manual_liveliness,
-                        qos.deadline_ns, qos.lifespan_ns, qos.lease_ns);
-}
-
-// Returns the counts of a status that has changed since the last call, otherwise None.
-template <class Endpoint>
-nb::object take_status(Endpoint& endpoint, std::size_t kind) {
-  if (kind >= StatusEvents::kKinds) throw nb::value_error("there is no such status");
-  const auto counts = endpoint.events().take(static_cast<StatusEvents::Kind>(kind));
-  if (!counts) return nb::none();
-  return nb::make_tuple((*counts)[0], (*counts)[1], (*counts)[2], (*counts)[3]);
-}
-
-// Large messages are copied without the GIL: a cloud of a million points takes milliseconds.
 nb::bytes to_bytes(const dds::Sample& sample) {
-  constexpr std::size_t kMuch = 1 << 16;
   const auto bytes = sample.bytes();
-  if (bytes.size() < kMuch) return nb::bytes(bytes.data(), bytes.size());
-  const auto copy = nb::steal<nb::bytes>(PyBytes_FromStringAndSize(nullptr, static_cast<Py_ssize_t>(bytes.size())));
-  if (!copy.is_valid()) throw nb::python_error();
-  char* memory = PyBytes_AS_STRING(copy.ptr());
-  WithoutGil release;
-  std::memcpy(memory, bytes.data(), bytes.size());
-  return copy;
+  return values::message_bytes<WithoutGil>(bytes.data(), bytes.size());
 }
 
 // With a codec, messages that it can read are returned as messages, others as bytes.
@@ -130,29 +109,6 @@ nb::tuple take_tapped(PyTap& tap) {
   }
   return nb::make_tuple(nb::bytes(tapped.bytes.data(), tapped.bytes.size()), array_bytes(tapped.ends),
                         array_bytes(tapped.arrived), array_bytes(tapped.sent), array_bytes(tapped.writers));
-}
-
-// The names come from the network and need not be valid UTF-8.
-nb::str to_text(const std::string& name) {
-  return nb::steal<nb::str>(
-      PyUnicode_DecodeUTF8(name.data(), static_cast<Py_ssize_t>(name.size()), "backslashreplace"));
-}
-
-nb::list take_endpoints(PyEndpointReader& reader) {
-  std::vector<EndpointChange> changes;
-  {
-    WithoutGil release;
-    changes = reader.take();
-  }
-  nb::list list;
-  for (const EndpointChange& change : changes) {
-    nb::list partitions;
-    for (const std::string& partition : change.qos.partitions) partitions.append(to_text(partition));
-    list.append(nb::make_tuple(change.handle, change.alive, to_bytes(change.guid), to_bytes(change.participant),
-                               to_text(change.topic), to_text(change.type), to_tuple(change.qos),
-                               nb::bytes(change.user_data.data(), change.user_data.size()), nb::tuple(partitions)));
-  }
-  return list;
 }
 
 nb::list writers_of(const TransformStore& store) {
@@ -209,8 +165,10 @@ void define_writer(nb::module_& wire) {
            "Show the readers that the writer is alive.")
       .def("wait_for_acks", &PyWriter::wait_for_acks, nb::arg("timeout_ns"), ReleaseGil(),
            "Wait until all reliable readers have received all messages; False after the timeout.")
-      .def("take_status", &take_status<PyWriter>, nb::arg("kind"),
-           "Return the counts of the status DEADLINE_MISSED, ... if it has changed since the last call.")
+      .def(
+          "take_status", [](PyWriter& self, std::size_t kind) { return values::take_status(self.events(), kind); },
+          nb::arg("kind"),
+          "Return the counts of the status DEADLINE_MISSED, ... if it has changed since the last call.")
       .def_prop_ro("guid", [](const PyWriter& self) { return to_bytes(guid_of(self)); })
       .def_prop_ro("matched", &PyWriter::matched, "How many readers the writer has found.", ReleaseGil())
       .def("matched_handles", &matched_handles<PyWriter>, "The handles of those readers.")
@@ -225,7 +183,8 @@ template <class Reader, class Class>
 void define_reader_properties(Class& cls) {
   cls.def_prop_ro("guid", [](const Reader& self) { return to_bytes(guid_of(self.reader())); })
       .def(
-          "take_status", [](Reader& self, std::size_t kind) { return take_status(self.reader(), kind); },
+          "take_status",
+          [](Reader& self, std::size_t kind) { return values::take_status(self.reader().events(), kind); },
           nb::arg("kind"),
           "Return the counts of the status DEADLINE_MISSED, ... if it has changed since the last call.")
       .def_prop_ro(
@@ -347,7 +306,7 @@ void define_readers(nb::module_& wire) {
   nb::class_<PyEndpointReader>(wire, "EndpointReader", "The writers, readers or participants found by DDS discovery.")
       .def(nb::init<dds::Entity, dds::Entity, std::shared_ptr<Event>>(), nb::arg("participant"), nb::arg("topic"),
            nb::arg("on_change"), ReleaseGil())
-      .def("take", &take_endpoints,
+      .def("take", &values::take_changes<WithoutGil, PyEndpointReader>,
            "Return the changes: tuples (handle, alive, guid, participant's guid, topic, type, "
            "(depth, reliable, transient_local, keep_all, manual_liveliness, deadline, lifespan, lease), user data, "
            "partitions). Those that are not alive have only the handle and the guid.")

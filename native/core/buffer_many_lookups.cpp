@@ -145,12 +145,12 @@ bool Buffer::lookup_row(LookupQuery& query, const Extrapolation* extrapolation, 
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     std::fill_n(batch.poses + 7 * row, 7, kNan);
     if (batch.twists) std::fill_n(batch.twists + 6 * row, 6, kNan);
-    if (batch.beyond) batch.beyond[row] = 0;
+    if (batch.extrapolated) batch.extrapolated[row] = 0;
     return false;
   }
   write_pose(one.pose, batch.poses + 7 * row);
   batch.stamps[row] = one.stamp;
-  if (batch.beyond) batch.beyond[row] = guess.furthest;
+  if (batch.extrapolated) batch.extrapolated[row] = guess.furthest;
   return true;
 }
 

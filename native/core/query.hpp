@@ -33,10 +33,10 @@ struct Batch {
     clip,  // use the nearest time at which all edges have data
   };
   std::size_t count;
-  Stamp* stamps;   // in: requested, 0 for the latest; out: of the results
-  double* poses;   // out: x, y, z, qx, qy, qz, qw a row
-  double* twists;  // out, if wanted: vx, vy, vz, wx, wy, wz a row, m/s and rad/s along the target's axes
-  Stamp* beyond;   // out, optional: nanoseconds of extrapolation
+  Stamp* stamps;        // in: requested, 0 for the latest; out: of the results
+  double* poses;        // out: x, y, z, qx, qy, qz, qw a row
+  double* twists;       // out, if wanted: vx, vy, vz, wx, wy, wz a row, m/s and rad/s along the target's axes
+  Stamp* extrapolated;  // out, optional: nanoseconds of extrapolation
   Missing missing = Missing::stop;
 };
 

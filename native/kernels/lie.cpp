@@ -21,7 +21,7 @@ void compose_batches_by(const PoseBatch& a, const PoseBatch& b, std::size_t n, d
 
 COFRAME_INLINE TwistLanes load_twists(const double* twists, std::size_t i, std::size_t n) {
   const double* rows[kLanes];
-  for (std::size_t k = 0; k < kLanes; ++k) rows[k] = twists + 6 * (i + k < n ? i + k : n - 1);
+  for (std::size_t k = 0; k < kLanes; ++k) rows[k] = twists + 6 * row_at(i, k, n);
   TwistLanes twist;
   load_columns(rows, 0, twist.linear.x, twist.linear.y);
   load_columns(rows, 2, twist.linear.z, twist.angular.x);
@@ -29,16 +29,11 @@ COFRAME_INLINE TwistLanes load_twists(const double* twists, std::size_t i, std::
   return twist;
 }
 
-COFRAME_INLINE void write_twist_group(const TwistLanes& twist, double* rows) {
-  store_fours(twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.x, rows, 6);
-  store_fours(twist.linear.z, twist.angular.x, twist.angular.y, twist.angular.z, rows + 2, 6);
-}
-
 COFRAME_INLINE Lanes load_fractions(const Fractions& fractions, std::size_t i, std::size_t n) {
   if (fractions.step == 0) return splat(fractions.numbers[0]);
   if (i + kLanes <= n) return load_lanes(fractions.numbers + i);
   double numbers[kLanes];
-  for (std::size_t k = 0; k < kLanes; ++k) numbers[k] = fractions.numbers[i + k < n ? i + k : n - 1];
+  for (std::size_t k = 0; k < kLanes; ++k) numbers[k] = fractions.numbers[row_at(i, k, n)];
   return load_lanes(numbers);
 }
 
@@ -79,16 +74,7 @@ void exponentials(const double* twists, std::size_t n, double* out) {
 }
 
 void logarithms(const PoseBatch& poses, std::size_t n, double* out) {
-  for (std::size_t i = 0; i < n; i += kLanes) {
-    const TwistLanes twist = logarithm(load(poses, i, n));
-    if (i + kLanes <= n) {
-      write_twist_group(twist, out + 6 * i);
-    } else {
-      double rows[6 * kLanes];
-      write_twist_group(twist, rows);
-      std::memcpy(out + 6 * i, rows, (n - i) * 6 * sizeof(double));
-    }
-  }
+  for (std::size_t i = 0; i < n; i += kLanes) write(logarithm(load(poses, i, n)), i, n, out);
 }
 
 void interpolate_batches(const PoseBatch& a, const PoseBatch& b, const Fractions& fractions, bool screw, std::size_t n,

@@ -36,11 +36,14 @@ COFRAME_INLINE void store(const PoseLanes& pose, PoseRows& rows, std::size_t i) 
   store_lanes(pose.p.z, rows.p[2] + i);
 }
 
-// Loads the poses from `i` on of a batch of n; the last one is repeated for rows beyond it.
+// Returns the index of row `k` of the group that begins at `i`; the last of n rows is repeated for rows beyond it.
+COFRAME_INLINE std::size_t row_at(std::size_t i, std::size_t k, std::size_t n) { return i + k < n ? i + k : n - 1; }
+
+// Loads the poses from `i` on of a batch of n.
 COFRAME_INLINE PoseLanes load(const PoseBatch& batch, std::size_t i, std::size_t n) {
   const double *p[kLanes], *q[kLanes];
   for (std::size_t k = 0; k < kLanes; ++k) {
-    const auto row = static_cast<std::ptrdiff_t>(i + k < n ? i + k : n - 1);
+    const auto row = static_cast<std::ptrdiff_t>(row_at(i, k, n));
     p[k] = batch.p + row * batch.p_step;
     q[k] = batch.q + row * batch.q_step;
   }
@@ -57,12 +60,28 @@ COFRAME_INLINE void write_group(const PoseLanes& pose, double* rows) {
   store_fours(pose.q.x, pose.q.y, pose.q.z, pose.q.w, rows + 3, 7);
 }
 
-// Writes the poses from `i` on as rows of x, y, z, qx, qy, qz, qw to an array of n rows.
+COFRAME_INLINE void write_group(const TwistLanes& twist, double* rows) {
+  store_fours(twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.x, rows, 6);
+  store_fours(twist.linear.z, twist.angular.x, twist.angular.y, twist.angular.z, rows + 2, 6);
+}
+
+// Writes the values from `i` on to an array of n rows of kColumns numbers.
+template <std::size_t kColumns, class Values>
+COFRAME_INLINE void write_rows(const Values& values, std::size_t i, std::size_t n, double* out) {
+  if (i + kLanes <= n) return write_group(values, out + kColumns * i);
+  double rows[kColumns * kLanes];
+  write_group(values, rows);
+  std::memcpy(out + kColumns * i, rows, (n - i) * kColumns * sizeof(double));
+}
+
+// Rows of x, y, z, qx, qy, qz, qw.
 COFRAME_INLINE void write(const PoseLanes& pose, std::size_t i, std::size_t n, double* out) {
-  if (i + kLanes <= n) return write_group(pose, out + 7 * i);
-  double rows[7 * kLanes];
-  write_group(pose, rows);
-  std::memcpy(out + 7 * i, rows, (n - i) * 7 * sizeof(double));
+  write_rows<7>(pose, i, n, out);
+}
+
+// Rows of vx, vy, vz, wx, wy, wz.
+COFRAME_INLINE void write(const TwistLanes& twist, std::size_t i, std::size_t n, double* out) {
+  write_rows<6>(twist, i, n, out);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ class Transform:
         source: str | None,
         stamp: int | None,
         batch: Any,
-        beyond: int = 0,
+        extrapolated: int = 0,
         uncertainty: Any = None,
     ) -> None: ...
     @property
@@ -44,7 +44,7 @@ class Transform:
         """The source frame, whose pose the values are, or None."""
 
     @property
-    def _beyond(self) -> int:
+    def _extrapolated(self) -> int:
         """How far the lookup extrapolated beyond the samples of an edge, in nanoseconds."""
 
     @property
@@ -171,7 +171,7 @@ class Buffer:
         stamps: Any,
         poses: Any,
         twists: Any,
-        beyond: Any,
+        extrapolated: Any,
         on_error: str,
         threads: int,
         extrapolate: DurationLike | None = None,
@@ -550,7 +550,7 @@ def new_transform(
     source: str | None,
     stamp: int | None,
     batch: Any,
-    beyond: int = 0,
+    extrapolated: int = 0,
     uncertainty: Any = None,
     /,
 ) -> PublicTransform:

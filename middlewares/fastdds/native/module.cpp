@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "coframe/endpoint_values.hpp"
 #include "participant.hpp"
 #include "readers.hpp"
 #include "writer.hpp"
@@ -63,27 +64,8 @@ rtps::SampleIdentity to_identity(const nb::bytes& guid, std::int64_t sequence) {
   return identity;
 }
 
-// The names come from the network and need not be valid UTF-8.
-nb::str to_text(const std::string& name) {
-  return nb::steal<nb::str>(
-      PyUnicode_DecodeUTF8(name.data(), static_cast<Py_ssize_t>(name.size()), "backslashreplace"));
-}
-
-template <class Number>
-nb::bytes array_bytes(const std::vector<Number>& numbers) {
-  return nb::bytes(numbers.data(), numbers.size() * sizeof(Number));
-}
-
-// Large messages are copied without the GIL.
 nb::bytes to_bytes(Incoming message) {
-  constexpr std::size_t kMuch = 1 << 16;
-  if (message.size() < kMuch) return nb::bytes(message.data(), message.size());
-  auto copy = nb::steal<nb::bytes>(PyBytes_FromStringAndSize(nullptr, static_cast<Py_ssize_t>(message.size())));
-  if (!copy.is_valid()) throw nb::python_error();
-  char* memory = PyBytes_AS_STRING(copy.ptr());
-  WithoutGil release;
-  std::memcpy(memory, message.data(), message.size());
-  return copy;
+  return values::message_bytes<WithoutGil>(message.data(), message.size());
 }
 
 // An object that is created and destroyed without the GIL.
@@ -142,14 +124,6 @@ struct PyParticipant {
   ~PyParticipant() { close(); }
 };
 
-template <class Native>
-nb::object take_status(Holder<Native>& self, std::size_t kind) {
-  if (kind >= StatusEvents::kKinds) throw nb::value_error("there is no such status");
-  const auto counts = self.native->events().take(static_cast<StatusEvents::Kind>(kind));
-  if (!counts) return nb::none();
-  return nb::make_tuple((*counts)[0], (*counts)[1], (*counts)[2], (*counts)[3]);
-}
-
 template <class Native, class Class>
 void define_endpoint(Class& cls) {
   using Self = Holder<Native>;
@@ -157,31 +131,11 @@ void define_endpoint(Class& cls) {
       .def_prop_ro("matched", [](const Self& self) { return self.native->events().matched().size(); })
       .def("matched_handles", [](const Self& self) { return self.native->events().matched(); })
       .def_prop_ro("refused_policy", [](const Self& self) { return self.native->events().refused_policy(); })
-      .def("take_status", &take_status<Native>, nb::arg("kind"))
+      .def(
+          "take_status",
+          [](const Self& self, std::size_t kind) { return values::take_status(self.native->events(), kind); },
+          nb::arg("kind"))
       .def("close", &Self::close);
-}
-
-nb::tuple to_tuple(const Qos& qos) {
-  return nb::make_tuple(qos.depth, qos.reliable, qos.transient_local, qos.keep_all, qos.manual_liveliness,
-                        qos.deadline_ns, qos.lifespan_ns, qos.lease_ns);
-}
-
-nb::list take_changes(EndpointChanges& from) {
-  std::vector<EndpointChange> changes;
-  {
-    WithoutGil release;
-    changes = from.take();
-  }
-  nb::list list;
-  for (const EndpointChange& change : changes) {
-    nb::list partitions;
-    for (const std::string& partition : change.qos.partitions) partitions.append(to_text(partition));
-    list.append(nb::make_tuple(change.handle, change.alive, nb::bytes(change.guid.data(), change.guid.size()),
-                               nb::bytes(change.participant.data(), change.participant.size()), to_text(change.topic),
-                               to_text(change.type), to_tuple(change.qos),
-                               nb::bytes(change.user_data.data(), change.user_data.size()), nb::tuple(partitions)));
-  }
-  return list;
 }
 
 void define_participant(nb::module_& module) {
@@ -213,10 +167,12 @@ void define_participant(nb::module_& module) {
           nb::arg("properties"), nb::arg("changed"))
       .def_prop_ro("guid", [](const PyParticipant& self) { return to_bytes(self.get().guid()); })
       .def(
-          "take_writers", [](const PyParticipant& self) { return take_changes(self.get().writers()); },
+          "take_writers",
+          [](const PyParticipant& self) { return values::take_changes<WithoutGil>(self.get().writers()); },
           "Return the changes of writers; see coframe._core.EndpointReader.take.")
       .def(
-          "take_readers", [](const PyParticipant& self) { return take_changes(self.get().readers()); },
+          "take_readers",
+          [](const PyParticipant& self) { return values::take_changes<WithoutGil>(self.get().readers()); },
           "Return the changes of readers.")
       .def(
           "take_participants", [](const PyParticipant& self) { return take_changes(self.get().participants()); },
@@ -430,8 +386,9 @@ nb::tuple take_tapped(Holder<Tap>& self) {
     WithoutGil release;
     tapped = self.native->take();
   }
-  return nb::make_tuple(nb::bytes(tapped.bytes.data(), tapped.bytes.size()), array_bytes(tapped.ends),
-                        array_bytes(tapped.arrived), array_bytes(tapped.sent), array_bytes(tapped.writers));
+  return nb::make_tuple(nb::bytes(tapped.bytes.data(), tapped.bytes.size()), values::array_bytes(tapped.ends),
+                        values::array_bytes(tapped.arrived), values::array_bytes(tapped.sent),
+                        values::array_bytes(tapped.writers));
 }
 
 void define_readers(nb::module_& module) {

@@ -216,7 +216,7 @@ def with_covariance(buffer: _core.Buffer, pose: Transform, edge_pose: Callable[[
         pose.source,
         pose.stamp,
         pose._batch,
-        pose._beyond,
+        pose._extrapolated,
         (_read_only(matrices), tuple(exact)),
     )
 

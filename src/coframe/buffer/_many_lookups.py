@@ -155,11 +155,13 @@ class Buffer(_core.Buffer):
             raise ValueError(f"stamps must have shape (N,), not {times.shape}")
         rows = out if out is not None and _is_rows(out, times.size) else np.empty((times.size, 7))
         twists = np.empty((times.size, 6)) if twist else None
-        beyond = np.empty_like(times) if extrapolate is not None else None
+        extrapolated = np.empty_like(times) if extrapolate is not None else None
         limit = gaps.gap_limit(max_gap, on_gap)
         if out is not None:
             _check_out_options(limit, on_gap, covariance=covariance)
-        missing = self._lookup_rows(target, source, times, rows, twists, beyond, on_error, threads, extrapolate, hold)
+        missing = self._lookup_rows(
+            target, source, times, rows, twists, extrapolated, on_error, threads, extrapolate, hold
+        )
         if missing == 0 and times.size and np.isnan(rows[:, 0]).all():
             self.lookup(target, source, int(np.ravel(stamps_of(stamps))[0]), extrapolate=extrapolate, hold=hold)
         if limit is None:
@@ -169,14 +171,14 @@ class Buffer(_core.Buffer):
             if on_gap == "omit":
                 rows, times = rows[kept], times[kept]
                 twists = None if twists is None else twists[kept]
-                beyond = None if beyond is None else beyond[kept]
+                extrapolated = None if extrapolated is None else extrapolated[kept]
             else:
                 rows[~kept] = np.nan
                 if twists is not None:
                     twists[~kept] = np.nan
         if out is None:
-            _freeze(rows, times, beyond)
-        batch = batch_of(rows[:, :3], rows[:, 3:], target, source, times, beyond)
+            _freeze(rows, times, extrapolated)
+        batch = batch_of(rows[:, :3], rows[:, 3:], target, source, times, extrapolated)
         if out is not None and out is not rows:
             out[...] = batch.matrix
         if covariance:
@@ -290,10 +292,10 @@ class Buffer(_core.Buffer):
         """Return a batch without a word about gaps."""
         times = stamps.copy()
         rows = np.empty((times.size, 7))
-        beyond = np.empty_like(times) if extrapolate is not None else None
-        self._lookup_rows(target, source, times, rows, None, beyond, on_error, 1, extrapolate, hold)
-        _freeze(rows, times, beyond)
-        return batch_of(rows[:, :3], rows[:, 3:], target, source, times, beyond)
+        extrapolated = np.empty_like(times) if extrapolate is not None else None
+        self._lookup_rows(target, source, times, rows, None, extrapolated, on_error, 1, extrapolate, hold)
+        _freeze(rows, times, extrapolated)
+        return batch_of(rows[:, :3], rows[:, 3:], target, source, times, extrapolated)
 
     def span(self, target: str, source: str) -> tuple[int, int]:
         """Return the time interval in which every edge between two frames has data.
@@ -326,12 +328,12 @@ def _check_out_options(limit: int | None, on_gap: OnGap, *, covariance: bool) ->
         raise ValueError("covariance=True cannot be combined with out, which has no place for covariances")
 
 
-def _freeze(rows: Array, times: NDArray[np.int64], beyond: NDArray[np.int64] | None) -> None:
+def _freeze(rows: Array, times: NDArray[np.int64], extrapolated: NDArray[np.int64] | None) -> None:
     """Make the arrays of a result read-only, and with them all views of the rows."""
     rows.flags.writeable = False
     times.flags.writeable = False
-    if beyond is not None:
-        beyond.flags.writeable = False
+    if extrapolated is not None:
+        extrapolated.flags.writeable = False
 
 
 def _is_rows(out: Array, count: int) -> bool:

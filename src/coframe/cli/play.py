@@ -66,6 +66,22 @@ def _is_number(following: list[str]) -> bool:
         return False
 
 
+_start_offset_option = click.option(
+    "--start-offset",
+    metavar="DURATION",
+    type=Duration,
+    default="0s",
+    help="Start this far into the recording, e.g. 10s or 2min.",
+)
+_delay_option = click.option(
+    "--delay",
+    metavar="DURATION",
+    type=Duration,
+    default="1s",
+    help="Time to wait for subscribers before playback starts.",
+)
+
+
 @click.command(cls=PlayCommand)
 @argument(
     "bag",
@@ -94,13 +110,7 @@ def _is_number(following: list[str]) -> bool:
 @click.option("--rate", "-r", metavar="FACTOR", type=float, default=1.0, help="Playback speed; 2 is twice as fast.")
 @click.option("--loop", is_flag=True, help="Restart at the end.")
 @click.option("-l", "upstream_loop", is_flag=True, hidden=True)
-@click.option(
-    "--start-offset",
-    metavar="DURATION",
-    type=Duration,
-    default="0s",
-    help="Start this far into the recording, e.g. 10s or 2min.",
-)
+@_start_offset_option
 @click.option(
     "--playback-duration",
     metavar="DURATION",
@@ -122,13 +132,7 @@ def _is_number(following: list[str]) -> bool:
     type=float,
     help="Publish /clock at this rate, or at 40 Hz without a value. [default: replay /clock as recorded]",
 )
-@click.option(
-    "--delay",
-    metavar="DURATION",
-    type=Duration,
-    default="1s",
-    help="Time to wait for subscribers before playback starts.",
-)
+@_delay_option
 @domain_option
 @listener_options
 def play(
@@ -212,20 +216,8 @@ def play(
 )
 @click.option("--topics", metavar="TOPIC", multiple=True, help="Publish only this topic; repeatable.")
 @click.option("--remap", "-m", metavar="OLD:=NEW", multiple=True, help="Publish the topic OLD as NEW; repeatable.")
-@click.option(
-    "--start-offset",
-    metavar="DURATION",
-    type=Duration,
-    default="0s",
-    help="Start this far into the recording, e.g. 10s or 2min.",
-)
-@click.option(
-    "--delay",
-    metavar="DURATION",
-    type=Duration,
-    default="1s",
-    help="Time to wait for subscribers before playback starts.",
-)
+@_start_offset_option
+@_delay_option
 @domain_option
 def burst(
     bag: Readable,

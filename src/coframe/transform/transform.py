@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
@@ -11,14 +10,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from coframe import _core, quaternion
 from coframe._output import html_tables
-from coframe.errors import InvalidArgumentException
 from coframe.time import stamp_ns
 from coframe.transform import _covariance, _messages
-from coframe.transform._algebra import TransformAlgebra
+from coframe.transform._arguments import checked_points, checked_vectors, normalized, single_pose
+from coframe.transform._constructors import TransformConstructors
 from coframe.transform.values import IDENTITY, any_stamp, arrow, batch_of, broadcast_stamps, derived
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator
 
     from coframe.time import StampLike
     from coframe.viewer import Viewer
@@ -27,16 +26,11 @@ __all__ = ["Transform"]
 
 Array = NDArray[np.float64]
 
-# Maximum deviation of a matrix from a rotation; allows matrices that were stored as float32 or printed with five
-# digits.
-_MATRIX_TOLERANCE = 1e-5
-# Between these lengths, the squared norm of a quaternion fits into a float64 with full precision.
-_SHORT, _LONG = 1e-140, 1e140
 # Marks arguments that replace() was not given.
 _KEEP: Any = object()
 
 
-class Transform(TransformAlgebra):
+class Transform(TransformConstructors):
     """A rigid motion, an element of SE(3), that transforms coordinates from ``source`` to ``target``.
 
     ``point_target = transform @ point_source``. A frame of None matches any frame. A batch has additional
@@ -84,15 +78,15 @@ class Transform(TransformAlgebra):
         stamp: StampLike | NDArray[np.int64] | None = None,
         covariance: ArrayLike | None = None,
     ) -> None:
-        if covariance is None and (values := _single_pose(translation, quaternion)) is not None:
+        if covariance is None and (values := single_pose(translation, quaternion)) is not None:
             nanoseconds = None if stamp is None else stamp_ns(stamp)
             super().__init__(*values, target, source, nanoseconds, None)
             return
         if _messages.is_message(translation):
             self._init_from_message(translation, target, source, stamp, covariance)
             return
-        t = _vectors(translation, 3, "translation")
-        q = _normalized(_vectors(quaternion, 4, "quaternion"))
+        t = checked_vectors(translation, 3, "translation")
+        q = normalized(checked_vectors(quaternion, 4, "quaternion"))
         shape = np.broadcast_shapes(t.shape[:-1], q.shape[:-1])
         uncertainty = None
         if covariance is not None:
@@ -128,274 +122,6 @@ class Transform(TransformAlgebra):
             stamp=stamp,
             covariance=found.covariance if covariance is None else covariance,
         )
-
-    @classmethod
-    def from_rpy(
-        cls,
-        translation: ArrayLike = (0.0, 0.0, 0.0),
-        rpy: ArrayLike | None = None,
-        *,
-        roll: ArrayLike | None = None,
-        pitch: ArrayLike | None = None,
-        yaw: ArrayLike | None = None,
-        target: str | None = None,
-        source: str | None = None,
-        stamp: StampLike | None = None,
-    ) -> Transform:
-        """Create a transform from roll, pitch and yaw: rotations about the fixed axes x, then y, then z (REP 103).
-
-        Args:
-            translation: Position in meters, shape (..., 3).
-            rpy: Roll, pitch, yaw in radians, shape (..., 3); alternatively, pass the angles by name.
-            roll: Rotation about x in radians, shape (...); 0 if not given.
-            pitch: Rotation about y in radians, shape (...); 0 if not given.
-            yaw: Rotation about z in radians, shape (...); 0 if not given.
-            target: The target frame.
-            source: The source frame.
-            stamp: Time, as in :class:`Transform`.
-
-        Raises:
-            InvalidArgumentException: A value is not finite.
-            TypeError: ``rpy`` was given together with an angle by name.
-            ValueError: ``translation`` or ``rpy`` has another shape.
-
-        Example:
-            >>> import coframe
-            >>> coframe.Transform.from_rpy([1.0, 2.0, 0.0], yaw=0.5)
-            Transform(translation=[1, 2, 0], rpy=[0, 0, 0.5])
-        """
-        named = (roll, pitch, yaw)
-        if rpy is None:
-            angles = [np.asarray(0.0 if angle is None else angle, dtype=np.float64) for angle in named]
-            rpy = np.stack(np.broadcast_arrays(*angles), axis=-1)
-        elif any(angle is not None for angle in named):
-            raise TypeError("from_rpy() takes either rpy or the angles roll, pitch and yaw by name, not both")
-        q = quaternion.from_rpy(_vectors(rpy, 3, "rpy"))
-        return cls(translation, q, target=target, source=source, stamp=stamp)
-
-    @classmethod
-    def from_rotvec(
-        cls,
-        translation: ArrayLike = (0.0, 0.0, 0.0),
-        rotvec: ArrayLike = (0.0, 0.0, 0.0),
-        *,
-        degrees: bool = False,
-        target: str | None = None,
-        source: str | None = None,
-        stamp: StampLike | None = None,
-    ) -> Transform:
-        """Create a transform from a rotation vector: the axis times the angle.
-
-        Args:
-            translation: Position in meters, shape (..., 3).
-            rotvec: Rotation vector, shape (..., 3).
-            degrees: Whether the angle is in degrees instead of radians.
-            target: The target frame.
-            source: The source frame.
-            stamp: Time, as in :class:`Transform`.
-
-        Raises:
-            InvalidArgumentException: A value is not finite.
-            ValueError: An argument has another shape.
-        """
-        vector = _vectors(rotvec, 3, "rotvec")
-        q = quaternion.from_rotvec(np.radians(vector) if degrees else vector)
-        return cls(translation, q, target=target, source=source, stamp=stamp)
-
-    @classmethod
-    def from_axis_angle(
-        cls,
-        translation: ArrayLike,
-        axis: ArrayLike,
-        angle: ArrayLike,
-        *,
-        degrees: bool = False,
-        target: str | None = None,
-        source: str | None = None,
-        stamp: StampLike | None = None,
-    ) -> Transform:
-        """Create a transform from an axis and an angle.
-
-        Args:
-            translation: Position in meters, shape (..., 3).
-            axis: Axis of the rotation, of any length but zero, shape (..., 3).
-            angle: Angle of the rotation, shape (...).
-            degrees: Whether the angle is in degrees instead of radians.
-            target: The target frame.
-            source: The source frame.
-            stamp: Time, as in :class:`Transform`.
-
-        Raises:
-            InvalidArgumentException: A value is not finite, or an axis is zero.
-            ValueError: An argument has another shape.
-        """
-        vector = _vectors(axis, 3, "axis")
-        length = np.linalg.norm(vector, axis=-1, keepdims=True)
-        if not (length > 0.0).all():
-            raise InvalidArgumentException.with_details("axis must not be zero", hint="Without rotation, give angle 0.")
-        half = 0.5 * np.asarray(angle, dtype=np.float64)[..., None]
-        half = np.radians(half) if degrees else half
-        unit, half = np.broadcast_arrays(vector / length, half)
-        q = np.concatenate([np.sin(half) * unit, np.cos(half[..., :1])], axis=-1)
-        return cls(translation, q, target=target, source=source, stamp=stamp)
-
-    @classmethod
-    def from_euler(
-        cls,
-        translation: ArrayLike,
-        seq: str,
-        angles: ArrayLike,
-        *,
-        degrees: bool = False,
-        target: str | None = None,
-        source: str | None = None,
-        stamp: StampLike | None = None,
-    ) -> Transform:
-        """Create a transform from Euler angles in any order, as SciPy's ``Rotation.from_euler`` does.
-
-        Args:
-            translation: Position in meters, shape (..., 3).
-            seq: One to three axes: capital letters rotate about the axes of the moved frame ("ZYX" is yaw, pitch,
-                roll), small letters about fixed axes ("xyz" is roll, pitch, yaw).
-            angles: An angle for each axis, shape (..., n); for one axis also a number.
-            degrees: Whether the angles are in degrees instead of radians.
-            target: The target frame.
-            source: The source frame.
-            stamp: Time, as in :class:`Transform`.
-
-        Raises:
-            InvalidArgumentException: A value is not finite.
-            ValueError: ``seq`` is unknown, or an argument has another shape.
-
-        Example:
-            >>> import coframe
-            >>> coframe.Transform.from_euler([0, 0, 1.5], "ZYX", [90, 0, 10], degrees=True).rpy.round(3).tolist()
-            [0.175, 0.0, 1.571]
-        """
-        given = np.asarray(angles, dtype=np.float64)
-        given = given[None] if given.ndim == 0 else given
-        given = _vectors(given, len(seq), "angles")
-        q = quaternion.from_euler(seq, np.radians(given) if degrees else given)
-        return cls(translation, q, target=target, source=source, stamp=stamp)
-
-    @classmethod
-    def from_dual_quaternion(
-        cls,
-        dual_quaternion: ArrayLike,
-        *,
-        target: str | None = None,
-        source: str | None = None,
-        stamp: StampLike | None = None,
-    ) -> Transform:
-        """Create a transform from dual quaternions, as :meth:`as_dual_quaternion` returns them.
-
-        Args:
-            dual_quaternion: Shape (..., 8): real part x, y, z, w, then dual part x, y, z, w; it is normalized.
-            target: The target frame.
-            source: The source frame.
-            stamp: Time, as in :class:`Transform`.
-
-        Raises:
-            InvalidArgumentException: A value is not finite, or the real part is zero.
-            ValueError: ``dual_quaternion`` has another shape.
-        """
-        given = _vectors(dual_quaternion, 8, "dual_quaternion")
-        real = _normalized(given[..., :4])
-        dual = given[..., 4:] / np.linalg.norm(given[..., :4], axis=-1, keepdims=True)
-        t = 2.0 * quaternion.multiply(dual, quaternion.inverse(real))[..., :3]
-        return cls(t, real, target=target, source=source, stamp=stamp)
-
-    @classmethod
-    def from_matrix(
-        cls,
-        matrix: ArrayLike,
-        *,
-        target: str | None = None,
-        source: str | None = None,
-        stamp: StampLike | None = None,
-    ) -> Transform:
-        """Create a transform from homogeneous matrices, or from rotation matrices.
-
-        Args:
-            matrix: Shape (..., 4, 4), with translations in meters; or (..., 3, 3), without translation.
-            target: The target frame.
-            source: The source frame.
-            stamp: Time, as in :class:`Transform`.
-
-        Raises:
-            InvalidArgumentException: A translation is not finite.
-            ValueError: The shape is different, the last row is not 0 0 0 1, or the upper left 3x3 is not a rotation.
-        """
-        m = np.asarray(matrix, dtype=np.float64)
-        if m.shape[-2:] not in {(3, 3), (4, 4)}:
-            raise ValueError(f"matrix must have shape (..., 4, 4) or (..., 3, 3), not {m.shape}")
-        q = quaternion.from_matrix(_checked_rotation(m[..., :3, :3]))
-        if m.shape[-1] == 3:
-            return cls((0.0, 0.0, 0.0), q, target=target, source=source, stamp=stamp)
-        if not (m[..., 3, :] == (0.0, 0.0, 0.0, 1.0)).all():
-            raise ValueError("the last row of the matrix must be 0 0 0 1")
-        return cls(m[..., :3, 3], q, target=target, source=source, stamp=stamp)
-
-    @classmethod
-    def from_scipy(
-        cls,
-        rotation: Any,
-        translation: ArrayLike = (0.0, 0.0, 0.0),
-        *,
-        target: str | None = None,
-        source: str | None = None,
-        stamp: StampLike | None = None,
-    ) -> Transform:
-        """Create a transform from a SciPy rotation, or from a SciPy rigid transform.
-
-        Args:
-            rotation: A ``scipy.spatial.transform.Rotation``, or a ``RigidTransform``, which contains the translation;
-                single or with batch axes.
-            translation: Position in meters, shape (..., 3).
-            target: The target frame.
-            source: The source frame.
-            stamp: Time, as in :class:`Transform`.
-
-        Raises:
-            InvalidArgumentException: A value is not finite.
-            TypeError: ``rotation`` is neither of them.
-            ValueError: ``translation`` has another shape.
-        """
-        if hasattr(rotation, "as_dual_quat"):
-            rotation, translation = rotation.rotation, rotation.translation
-        if not hasattr(rotation, "as_quat"):
-            raise TypeError(
-                f"rotation must be a scipy.spatial.transform.Rotation or RigidTransform, not {type(rotation).__name__}"
-            )
-        return cls(translation, rotation.as_quat(), target=target, source=source, stamp=stamp)
-
-    @classmethod
-    def from_pinocchio(
-        cls,
-        pose: Any,
-        *,
-        target: str | None = None,
-        source: str | None = None,
-        stamp: StampLike | None = None,
-    ) -> Transform:
-        """Create a transform from a ``pinocchio.SE3``, or a batch from a sequence of them.
-
-        Args:
-            pose: The pose or poses.
-            target: The target frame.
-            source: The source frame.
-            stamp: Time, as in :class:`Transform`.
-
-        Raises:
-            TypeError: ``pose`` is something else.
-        """
-        single = hasattr(pose, "rotation") and hasattr(pose, "translation")
-        poses = [pose] if single else list(pose) if hasattr(pose, "__iter__") else [pose]
-        if not all(hasattr(each, "rotation") and hasattr(each, "translation") for each in poses):
-            raise TypeError(f"pose must be a pinocchio.SE3 or a sequence of them, not {type(pose).__name__}")
-        t = np.array([each.translation for each in poses], dtype=np.float64).reshape(-1, 3)
-        q = quaternion.from_matrix(np.array([each.rotation for each in poses], dtype=np.float64).reshape(-1, 3, 3))
-        return cls(t[0] if single else t, q[0] if single else q, target=target, source=source, stamp=stamp)
 
     def to_msg(self, message_type: Any, frame: str | None = None, stamp: StampLike | None = None) -> Any:
         """Return the pose as a ROS message.
@@ -451,7 +177,7 @@ class Transform(TransformAlgebra):
             return self._compose(other)
         if _messages.is_message(other):
             return _messages.moved(self, other, Transform)
-        points = _points(other)
+        points = checked_points(other)
         if self.shape:
             turned = quaternion.rotate(self.quaternion, points.astype(np.float64, copy=False)) + self.translation
             return turned.astype(points.dtype, copy=False)
@@ -483,7 +209,7 @@ class Transform(TransformAlgebra):
             raise TypeError("transform_point() takes points, not a Transform. Use `a @ b` to compose two transforms.")
         if all(hasattr(point, axis) for axis in "xyz"):
             point = (point.x, point.y, point.z)
-        moved: NDArray[Any] = self @ _points(point)
+        moved: NDArray[Any] = self @ checked_points(point)
         return moved
 
     def transform_pose(
@@ -646,7 +372,15 @@ class Transform(TransformAlgebra):
     def __reduce__(self) -> tuple[object, ...]:
         if self._batch is not None:
             return _rebuild_batch, (*self._batch[:2], self.target, self.source, *self._batch[2:], self._uncertainty)
-        return _rebuild, (self.values, self.target, self.source, self.stamp, None, self._beyond, self._uncertainty)
+        return _rebuild, (
+            self.values,
+            self.target,
+            self.source,
+            self.stamp,
+            None,
+            self._extrapolated,
+            self._uncertainty,
+        )
 
 
 def _rebuild_batch(
@@ -655,14 +389,14 @@ def _rebuild_batch(
     target: str | None,
     source: str | None,
     stamps: NDArray[np.int64] | None,
-    beyond: NDArray[np.int64] | None,
+    extrapolated: NDArray[np.int64] | None,
     uncertainty: tuple[Array, tuple[str, ...]] | None = None,
 ) -> Transform:
     """Return a batch from a copy of its arrays, which is writable if it comes from pickle or copy.deepcopy."""
-    for array in (translation, quaternion, stamps, beyond, None if uncertainty is None else uncertainty[0]):
+    for array in (translation, quaternion, stamps, extrapolated, None if uncertainty is None else uncertainty[0]):
         if array is not None:
             array.setflags(write=False)
-    return batch_of(translation, quaternion, target, source, stamps, beyond, uncertainty)
+    return batch_of(translation, quaternion, target, source, stamps, extrapolated, uncertainty)
 
 
 def _rebuild(
@@ -671,91 +405,13 @@ def _rebuild(
     source: str | None,
     stamp: int | None,
     batch: Any,
-    beyond: int = 0,
+    extrapolated: int = 0,
     uncertainty: tuple[Array, tuple[str, ...]] | None = None,
 ) -> Transform:
     """Return a transform with exactly these values; unlike the constructor, this does not normalize again."""
     if uncertainty is not None:
         uncertainty[0].setflags(write=False)
-    return _core.new_transform(*values, target, source, stamp, batch, beyond, uncertainty)
-
-
-def _checked_rotation(rotation: Array) -> Array:
-    """Return rotation matrices (..., 3, 3).
-
-    Raises:
-        ValueError: A matrix is not a rotation.
-    """
-    error = np.abs(rotation @ np.swapaxes(rotation, -1, -2) - np.eye(3)).max(initial=0.0)
-    if not error <= _MATRIX_TOLERANCE:
-        raise ValueError(
-            f"the upper left 3x3 of the matrix is not a rotation: R R^T differs from the identity by up to {error:.2g}"
-        )
-    if (np.linalg.det(rotation) < 0).any():
-        raise ValueError(
-            "the upper left 3x3 of the matrix is a reflection, not a rotation: its determinant is -1. Is one axis "
-            "negated, or are two axes exchanged, as between left-handed and right-handed coordinates?"
-        )
-    return rotation
-
-
-def _single_pose(
-    translation: ArrayLike, quaternion: ArrayLike
-) -> tuple[float, float, float, float, float, float, float] | None:
-    """Return the values of a single pose of floats without NumPy, which would take ten times as long for seven numbers.
-
-    Returns:
-        x, y, z, qx, qy, qz, qw; None for batches, other types of numbers and invalid values.
-    """
-    t, q = _few_numbers(translation, 3), _few_numbers(quaternion, 4)
-    if t is None or q is None or not all(type(number) is float for number in (*t, *q)):
-        return None
-    (x, y, z), (qx, qy, qz, qw) = t, q
-    length = math.sqrt(qx * qx + qy * qy + qz * qz + qw * qw)
-    if not (_SHORT < length < _LONG and math.isfinite(x) and math.isfinite(y) and math.isfinite(z)):
-        return None
-    return x, y, z, qx / length, qy / length, qz / length, qw / length
-
-
-def _few_numbers(values: Any, count: int) -> Sequence[Any] | None:
-    if isinstance(values, np.ndarray):
-        return values.tolist() if values.shape == (count,) else None
-    return values if isinstance(values, tuple | list) and len(values) == count else None
-
-
-def _vectors(values: ArrayLike, size: int, name: str) -> Array:
-    array = np.asarray(values, dtype=np.float64)
-    if array.ndim == 0 or array.shape[-1] != size:
-        raise ValueError(f"{name} must have shape (..., {size}), not {array.shape}")
-    if not np.isfinite(array).all():
-        raise InvalidArgumentException.with_details(
-            f"{name} must be finite, but contains NaN or inf", hint="Check where the values come from."
-        )
-    return array
-
-
-def _points(values: ArrayLike) -> NDArray[Any]:
-    points = np.asarray(values)
-    if points.dtype != np.float32:
-        points = points.astype(np.float64, copy=False)
-    if points.ndim == 0 or points.shape[-1] != 3:
-        raise ValueError(f"points must have shape (..., 3), not {points.shape}")
-    return points
-
-
-def _normalized(q: Array) -> Array:
-    with np.errstate(over="ignore"):
-        length = np.sqrt((q * q).sum(axis=-1, keepdims=True))
-    if not ((length > _SHORT) & (length < _LONG)).all():  # The squares overflow or underflow.
-        largest = np.abs(q).max(axis=-1, keepdims=True, initial=0.0)
-        if not (largest > 0.0).all():
-            raise InvalidArgumentException.with_details(
-                "quaternion must not be zero", hint="Is w unset? The identity rotation has w = 1."
-            )
-        q = q / largest
-        length = np.sqrt((q * q).sum(axis=-1, keepdims=True))
-    unit: Array = q / length
-    return unit
+    return _core.new_transform(*values, target, source, stamp, batch, extrapolated, uncertainty)
 
 
 def _numbers(values: Array, spec: str) -> str:

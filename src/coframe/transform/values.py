@@ -46,11 +46,11 @@ class TransformValues(_core.Transform):
     def extrapolated(self) -> int | NDArray[np.int64]:
         """The time by which the lookup extrapolated, in nanoseconds; for a batch, an array of shape ``self.shape``."""
         if self._batch is None:
-            return self._beyond
+            return self._extrapolated
         if self._batch[3] is None:
             return np.zeros(self.shape, dtype=np.int64)
-        beyond: NDArray[np.int64] = self._batch[3]
-        return beyond
+        extrapolated: NDArray[np.int64] = self._batch[3]
+        return extrapolated
 
     @property
     def covariance(self) -> Array | None:
@@ -260,14 +260,14 @@ def batch_of(
     target: str | None,
     source: str | None,
     stamps: NDArray[np.int64] | None,
-    beyond: NDArray[np.int64] | None = None,
+    extrapolated: NDArray[np.int64] | None = None,
     uncertainty: tuple[Array, tuple[str, ...]] | None = None,
 ) -> Transform:
     """Return a batch on the given arrays (..., 3) and (..., 4) without copying; rows of NaN mean "no transform".
 
     The arrays must be read-only, because transforms are immutable.
     """
-    batch = (translation, quaternion, stamps, beyond)
+    batch = (translation, quaternion, stamps, extrapolated)
     return _core.new_transform(*IDENTITY, target, source, None, batch, 0, uncertainty)
 
 

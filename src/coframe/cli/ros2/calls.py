@@ -15,6 +15,7 @@ from coframe.cli.ros2.graph import TIMEOUT, fail_once
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from coframe.cli.declaration import Declared
     from rclpy.node import Node
 
 __all__ = [
@@ -27,20 +28,16 @@ __all__ = [
     "wait_for_server",
 ]
 
-_RESPONSE = 5.0  # seconds until a missing response is reported
+_RESPONSE_TIMEOUT = 5.0  # seconds until a missing response is reported
 
-timeout_option = click.option(
-    "--timeout",
-    metavar="DURATION",
-    type=PositiveDuration,
-    help="Give up after this time, with exit code 1. [default: no limit]",
-)
-response_timeout_option = click.option(
-    "--timeout",
-    metavar="DURATION",
-    type=PositiveDuration,
-    default=f"{_RESPONSE:g}s",
-    help="How long to wait for each response of a node.",
+
+def _timeout_option(description: str, default: str | None = None) -> Callable[[Declared], Declared]:
+    return click.option("--timeout", metavar="DURATION", type=PositiveDuration, default=default, help=description)
+
+
+timeout_option = _timeout_option("Give up after this time, with exit code 1. [default: no limit]")
+response_timeout_option = _timeout_option(
+    "How long to wait for each response of a node.", default=f"{_RESPONSE_TIMEOUT:g}s"
 )
 
 
@@ -113,14 +110,14 @@ def result_of(node: Node, future: Any, name: str, deadline: Deadline) -> Any:
 
     reported = False
     while not future.done():
-        rclpy.spin_until_future_complete(node, future, timeout_sec=deadline.remaining(_RESPONSE))
+        rclpy.spin_until_future_complete(node, future, timeout_sec=deadline.remaining(_RESPONSE_TIMEOUT))
         if future.done():
             break
         if deadline.has_passed:
             fail(f"The {one_line(name)} did not respond within {deadline.limit}.", "Check that its node is spinning.")
         if not reported:
             reported = True
-            warn(f"The {one_line(name)} has not responded for {_RESPONSE:g} s. --timeout limits the wait.")
+            warn(f"The {one_line(name)} has not responded for {_RESPONSE_TIMEOUT:g} s. --timeout limits the wait.")
     return future.result()
 
 
@@ -138,7 +135,7 @@ def call_service(
     """
     import rclpy  # noqa: PLC0415 - slow import
 
-    seconds = _RESPONSE if timeout is None else timeout.seconds
+    seconds = _RESPONSE_TIMEOUT if timeout is None else timeout.seconds
     client = node.create_client(service_class, name)
     try:
         if not client.wait_for_service(TIMEOUT if timeout is None else min(TIMEOUT, seconds)):

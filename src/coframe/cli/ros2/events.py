@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -21,9 +21,10 @@ from coframe.cli.ros2.graph import (
     wait_until,
 )
 from coframe.cli.ros2.messages import MessageStream
-from coframe.cli.ros2.topic_echo import text_options
+from coframe.cli.ros2.text_format import text_options
 
 if TYPE_CHECKING:
+    from coframe.cli.ros2.text_format import TextFormat
     from rclpy.node import Node
 
 __all__ = ["echo_action", "echo_service"]
@@ -31,16 +32,6 @@ __all__ = ["echo_action", "echo_service"]
 _SERVICE_EVENT = "_service_event"
 _EVENT_TYPES = {0: "REQUEST_SENT", 1: "REQUEST_RECEIVED", 2: "RESPONSE_SENT", 3: "RESPONSE_RECEIVED"}
 _ENABLE_HINT = "Its node enables them: configure_introspection(clock, qos, ServiceIntrospectionState.CONTENTS)."
-
-
-class _Format(NamedTuple):
-    """How events are printed."""
-
-    csv: bool
-    truncate_length: int | None
-    no_arr: bool
-    no_str: bool
-    flow_style: bool
 
 
 @click.command("echo", cls=GraphCommand, short_help="Print the requests and responses of a service.")
@@ -52,12 +43,7 @@ class _Format(NamedTuple):
 def echo_service(
     service_name: str,
     service_type: str | None,
-    csv: bool,
-    full_length: bool,
-    truncate_length: int,
-    no_arr: bool,
-    no_str: bool,
-    flow_style: bool,
+    text_format: TextFormat,
     use_sim_time: bool,
     spin_time: NonNegativeDuration,
 ) -> None:
@@ -65,7 +51,6 @@ def echo_service(
 
     Example: coframe service echo /reset
     """
-    form = _Format(csv, None if full_length else truncate_length, no_arr, no_str, flow_style)
     with graph_node(spin_time, use_sim_time=use_sim_time) as node:
         from rosidl_runtime_py.utilities import get_service  # noqa: PLC0415 - slow import
 
@@ -74,7 +59,7 @@ def echo_service(
         stream = MessageStream(node, f"{service_name}/{_SERVICE_EVENT}", event, _event_qos())
         _warn_if_not_published(node, [f"{service_name}/{_SERVICE_EVENT}"], f"service {service_name}")
         for message in stream.messages():
-            print_bounded(_text(message, form))
+            print_bounded(_text(message, text_format))
 
 
 @click.command("echo", cls=GraphCommand, short_help="Print the goals, feedback, status and results of an action.")
@@ -86,12 +71,7 @@ def echo_service(
 def echo_action(
     action_name: str,
     action_type: str | None,
-    csv: bool,
-    full_length: bool,
-    truncate_length: int,
-    no_arr: bool,
-    no_str: bool,
-    flow_style: bool,
+    text_format: TextFormat,
     use_sim_time: bool,
     spin_time: NonNegativeDuration,
 ) -> None:
@@ -99,7 +79,6 @@ def echo_action(
 
     Example: coframe action echo /fibonacci
     """
-    form = _Format(csv, None if full_length else truncate_length, no_arr, no_str, flow_style)
     with graph_node(spin_time, use_sim_time=use_sim_time) as node:
         from rclpy.action import get_action_names_and_types  # noqa: PLC0415 - slow import
         from rosidl_runtime_py.utilities import get_action  # noqa: PLC0415
@@ -109,8 +88,8 @@ def echo_action(
         for interface, topic, message_class, qos in _interfaces(action_name, load_type(kind, get_action)):
             stream.subscribe(topic, message_class, qos, label=interface)
         for interface, message in stream.labeled():
-            text = _text(message, form)
-            print_bounded(f"{interface},{text}" if form.csv else f"interface: {interface}\n{text}")
+            text = _text(message, text_format)
+            print_bounded(f"{interface},{text}" if text_format.csv else f"interface: {interface}\n{text}")
 
 
 def _type(names_and_types: Any, name: str, what: str) -> str:
@@ -165,22 +144,21 @@ def _warn_if_not_published(node: Node, topics: list[str], what: str) -> None:
         warn(f"The {what} publishes no events yet: waiting for them. {_ENABLE_HINT}")
 
 
-def _text(message: Any, form: _Format) -> str:
+def _text(message: Any, text_format: TextFormat) -> str:
     """Return a message as ros2 prints it: YAML with names instead of numbers of event types."""
     from rosidl_runtime_py import message_to_csv  # noqa: PLC0415 - slow import
     from rosidl_runtime_py.convert import message_to_ordereddict  # noqa: PLC0415
 
-    limits: dict[str, Any] = {"truncate_length": form.truncate_length, "no_arr": form.no_arr, "no_str": form.no_str}
-    if form.csv:
-        return printable(message_to_csv(message, **limits).replace("\n", r"\n"))
-    values = _plain(message_to_ordereddict(message, **limits))
+    if text_format.csv:
+        return printable(message_to_csv(message, **text_format.limits).replace("\n", r"\n"))
+    values = _plain(message_to_ordereddict(message, **text_format.limits))
     info = values.get("info")
     if isinstance(info, dict) and "event_type" in info:
         info["event_type"] = _EVENT_TYPES.get(info["event_type"], info["event_type"])
     import yaml  # noqa: PLC0415 - an optional package
 
     text = yaml.safe_dump(
-        values, allow_unicode=True, width=sys.maxsize, default_flow_style=form.flow_style, sort_keys=False
+        values, allow_unicode=True, width=sys.maxsize, default_flow_style=text_format.flow_style, sort_keys=False
     )
     return printable(f"{text}---")
 

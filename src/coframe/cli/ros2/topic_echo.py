@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import functools
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -32,40 +31,16 @@ from coframe.cli.ros2.qos import (
     profile_option,
     reliability_option,
 )
+from coframe.cli.ros2.text_format import text_options
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe.cli.declaration import Declared
+    from coframe.cli.ros2.text_format import TextFormat
 
-__all__ = ["echo", "text_options"]
-
-_TRUNCATE_LENGTH = 128  # ros2cli's default: elements of an array, characters of a string
-
+__all__ = ["echo"]
 
 _CLEAR = "\x1b[H\x1b[2J"  # moves the cursor home and clears the terminal
-
-
-def text_options(function: Declared) -> Declared:
-    """Declare the options about the text of a message."""
-    options = (
-        click.option("--csv", is_flag=True, help="Print each message as one line of comma-separated values."),
-        click.option("--full-length", "-f", is_flag=True, help="Do not truncate arrays and strings."),
-        click.option(
-            "--truncate-length",
-            "-l",
-            metavar="N",
-            type=click.IntRange(min=1),
-            default=_TRUNCATE_LENGTH,
-            help="Truncate arrays and strings to N elements.",
-        ),
-        click.option("--no-arr", is_flag=True, help="Print the types of arrays instead of their elements."),
-        click.option("--no-str", is_flag=True, help="Print the lengths of strings instead of the strings."),
-        click.option("--flow-style", is_flag=True, help="Print collections on one line."),
-    )
-    for option in reversed(options):
-        function = option(function)
-    return function
 
 
 @click.command(cls=GraphCommand, short_help="Print the messages of a topic as YAML.")
@@ -114,12 +89,7 @@ def echo(
     fields: tuple[str, ...],
     once: bool,
     timeout: NonNegativeDuration | None,
-    csv: bool,
-    full_length: bool,
-    truncate_length: int,
-    no_arr: bool,
-    no_str: bool,
-    flow_style: bool,
+    text_format: TextFormat,
     raw: bool,
     clear: bool,
     filter_expression: str | None,
@@ -139,8 +109,7 @@ def echo(
     Example: coframe topic echo /scan --once --field header
     """
     del lost_messages
-    length = None if full_length else truncate_length
-    write = _writer(fields, csv=csv, length=length, no_arr=no_arr, no_str=no_str, flow_style=flow_style, raw=raw)
+    write = _writer(fields, text_format, raw=raw)
     accepts = message_filter(filter_expression)
     words = QoSWords(qos_profile, qos_depth, qos_history, qos_reliability, qos_durability)
     with graph_node(spin_time, use_sim_time=use_sim_time) as node:
@@ -164,9 +133,7 @@ def echo(
         fail(f"No message arrived on {topic_name} within {timeout}.", "coframe topic info shows its publishers.")
 
 
-def _writer(
-    fields: tuple[str, ...], *, csv: bool, length: int | None, no_arr: bool, no_str: bool, flow_style: bool, raw: bool
-) -> Callable[[Any], str]:
+def _writer(fields: tuple[str, ...], text_format: TextFormat, *, raw: bool) -> Callable[[Any], str]:
     """Return the function that formats a message, or some of its fields."""
     if raw:
         return lambda data: f"{data}\n---"
@@ -175,17 +142,20 @@ def _writer(
     def has_fields(value: Any) -> bool:
         return hasattr(value, "get_fields_and_field_types")
 
-    to_csv = functools.partial(message_to_csv, truncate_length=length, no_arr=no_arr, no_str=no_str)
-    to_yaml = functools.partial(
-        message_to_yaml, truncate_length=length, no_arr=no_arr, no_str=no_str, flow_style=flow_style
-    )
+    def to_csv(value: Any) -> str:
+        return message_to_csv(value, **text_format.limits) if has_fields(value) else str(value)
+
+    def to_yaml(value: Any) -> str:
+        if not has_fields(value):
+            return f"{value}\n"
+        return message_to_yaml(value, flow_style=text_format.flow_style, **text_format.limits)
 
     def write(message: Any) -> str:
         values = [field_of(message, field) for field in fields] or [message]
-        if csv:
-            text = ",".join(to_csv(value) if has_fields(value) else str(value) for value in values)
+        if text_format.csv:
+            text = ",".join(to_csv(value) for value in values)
             return printable(text.replace("\n", r"\n"))  # one line for each message, unlike in ROS
-        text = "".join(to_yaml(value) if has_fields(value) else f"{value}\n" for value in values)
+        text = "".join(to_yaml(value) for value in values)
         return printable(f"{text}---")
 
     return write
