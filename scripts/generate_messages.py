@@ -236,7 +236,7 @@ class Module:
             NOTICE.format(package=self.package, kind=self.kind).rstrip(),
             f'"""{self.docstring()}"""',
             "",
-            *(["from coframe.distributions import hide_removed"] if is_reduced else []),
+            *(["from coframe.distributions import hide_removed_types"] if is_reduced else []),
             *(["from coframe.messages.events import event_attributes"] if self.compounds else []),
             f"from coframe.messages.generated.{self.package}.{self.kind} import (",
             *(f"    {name}," for name in sorted(names, key=lambda name: _natural(name.lower()))),
@@ -245,7 +245,7 @@ class Module:
             "__all__ = [",
             *(f'    "{name}",' for name in names),
             "]",
-            *(["", f'hide_removed(globals(), "{self.package}", "{self.kind}")'] if is_reduced else []),
+            *(["", f'hide_removed_types(globals(), "{self.package}", "{self.kind}")'] if is_reduced else []),
             *(["", f'__getattr__ = event_attributes("{self.package}", "{self.kind}")'] if self.compounds else []),
         ]
         return "\n".join(lines) + "\n"

@@ -28,7 +28,7 @@ __all__ = [
     "Removed",
     "current",
     "follows",
-    "hide_removed",
+    "hide_removed_types",
     "removal",
     "selected",
     "since",
@@ -184,11 +184,11 @@ def selected(environment: Mapping[str, str]) -> Distribution:
         if name in NAMES:
             return NAMES[name]
         if name:
-            sys.stderr.write(f"{_unknown(variable, name)}\n")
+            sys.stderr.write(f"{_unknown_name_text(variable, name)}\n")
     return DEFAULT
 
 
-def _unknown(variable: str, name: str) -> str:
+def _unknown_name_text(variable: str, name: str) -> str:
     known = ", ".join(sorted(NAMES))
     return f"{variable}={name[:40]!r} is not a known distribution of ROS 2, and is ignored. Known names: {known}."
 
@@ -228,7 +228,7 @@ def removal(ros_type: str) -> str:
     return ""
 
 
-def hide_removed(module: dict[str, Any], package: str, kind: str) -> None:
+def hide_removed_types(module: dict[str, Any], package: str, kind: str) -> None:
     """Remove the types that this distribution does not have from the module of a ROS package.
 
     Args:

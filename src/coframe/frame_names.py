@@ -146,8 +146,8 @@ def naming_problems(origin: str, slashed: str, prefixed: str, plain: str) -> lis
         )
     if prefixed and plain:
         problems.append(
-            f"{origin} uses the prefix for only some of its frames: {prefixed!r} and {plain!r}. Without coframe these "
-            "are two trees; give the prefix to all of its nodes, or to none"
+            f"{origin} uses the prefix for only some of its frames: {prefixed!r} and {plain!r}. In tf2 these are two "
+            "trees; set the prefix for all nodes of the robot, or for none"
         )
     return problems
 

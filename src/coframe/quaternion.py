@@ -196,7 +196,8 @@ def _axes(seq: str) -> tuple[list[int], bool]:
     is_known = 1 <= len(seq) <= 3 and (set(seq) <= set("xyz") or set(seq) <= set("XYZ"))
     if not is_known:
         raise ValueError(
-            f"seq must be one to three axes, all capital (of the moved frame) or all small (fixed), such as 'ZYX' or "
+            f"seq must be one to three axes, all upper-case (axes of the moved frame) or all lower-case (fixed "
+            f"axes), such as 'ZYX' or "
             f"'xyz', not {seq!r}"
         )
     return ["xyz".index(axis) for axis in seq.lower()], seq.isupper()

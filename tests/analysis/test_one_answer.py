@@ -9,7 +9,7 @@ from rich.console import Console
 
 import coframe
 from coframe.analysis.liveness import LivenessTracker, is_stale
-from coframe.cli.monitor import _data, _tables
+from coframe.cli.monitor import _as_data, _tables
 from coframe.cli.tree_table import tree_table
 from coframe.connection.tf_publishers import TfPublisher
 from coframe.doctor import Observation, diagnose
@@ -101,7 +101,7 @@ def frames_drawing(world):
 
 
 def monitor_json(world):
-    return {row["child"] for row in _data(world.observation(), None)["edges"] if row["stale"]}
+    return {row["child"] for row in _as_data(world.observation(), None)["edges"] if row["stale"]}
 
 
 def monitor_screen(world):

@@ -128,7 +128,7 @@ def test_the_field_with_the_times_can_be_given(path):
         clouds = Clouds(recording, "/points_other", "map", at=stamp, point_times="us:ns")
         (misread,) = clouds
         assert np.abs(xyz(misread.points) - WALL).max() > 0.03
-        doubt = "the field us read in ns makes a sweep of 75 us, but there is a message every 100 ms"
+        doubt = "the field us read in ns results in a sweep of 75 us, but there is a message every 100 ms"
         assert clouds.doubts == {doubt: 1}
         wrong = Clouds(recording, "/points_other", "map", at=stamp, point_times="us:s")
         assert list(wrong) == []
@@ -355,7 +355,7 @@ def test_points_in_a_gap_of_the_transforms_are_reported_or_skipped(tmp_path, fra
             Clouds(recording, "/points", frame, on_gap="clip", **options)
     words = ["cloud", str(path), "/points", "--frame", frame, "-o", str(tmp_path / "a.npz"), "--max-gap", "200ms"]
     ended = CliRunner().invoke(app, words)
-    assert "they lie in a longer gap than permitted" in ended.stderr
+    assert "they lie in a gap that is longer than max_gap" in ended.stderr
     assert CliRunner().invoke(app, [*words, "--on-gap", "raise"]).exit_code == 1
     assert CliRunner().invoke(app, [*words, "--on-gap", "skip"]).exit_code == 2
     ended = CliRunner().invoke(app, [*words, "--on-gap", "nan", "--validity"])

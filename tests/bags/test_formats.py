@@ -429,7 +429,7 @@ def test_files_that_are_not_recordings_are_errors(tmp_path):
     (tmp_path / "old.bag").write_bytes(b"#ROSBAG V1.2\n")
     (tmp_path / "folder").mkdir()
     for name, reason in [
-        ("empty.mcap", "it is empty"),
+        ("empty.mcap", "the file is empty"),
         ("text.db3", "in none of these formats: MCAP, SQLite"),
         ("old.bag", "bags of version 1"),
         ("folder", "is not a recording"),
@@ -444,11 +444,11 @@ def test_files_that_are_not_recordings_are_errors(tmp_path):
     ("start", "reason"),
     [
         (b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n", "`git lfs pull` downloads that"),
-        (gzip.compress(b"\x89MCAP0\r\n"), "it is compressed with gzip"),
-        (bz2.compress(b"x"), "it is compressed with bzip2"),
-        (lzma.compress(b"x"), "it is compressed with xz"),
-        (b"PK\x03\x04 archive", "it is a zip archive"),
-        (b"<!DOCTYPE html><title>Log in</title>", "it is a web page"),
+        (gzip.compress(b"\x89MCAP0\r\n"), "the file is compressed with gzip"),
+        (bz2.compress(b"x"), "the file is compressed with bzip2"),
+        (lzma.compress(b"x"), "the file is compressed with xz"),
+        (b"PK\x03\x04 archive", "the file is a zip archive"),
+        (b"<!DOCTYPE html><title>Log in</title>", "the file is a web page"),
         (bytes(4096), "it begins with zeros"),
     ],
     ids=["lfs", "gzip", "bzip2", "xz", "zip", "page", "zeros"],

@@ -73,7 +73,7 @@ def test_times_in_all_known_forms_are_exact(tmp_path, stamp):
         ({"sec": START // SECOND, "nsec": 1, "nanosec": 2}, "is in none of the known forms"),
         ({"sec": 1.5, "nsec": 0}, "contains 1.5, which is not an integer"),
         ({"sec": None, "nsec": 0}, "contains null, which is not an integer"),
-        ({"sec": 0, "nsec": START}, "nanoseconds besides its seconds"),
+        ({"sec": 0, "nsec": START}, "nanoseconds in addition to its seconds"),
         ([START // SECOND, 0], "is in none of the known forms"),
     ],
 )

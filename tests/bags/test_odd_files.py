@@ -48,7 +48,7 @@ def test_transforms_in_an_unknown_encoding_are_reported(tmp_path, type_):
         (b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\n", "pointer of Git LFS"),
         (gzip.compress(b"x" * 100, mtime=0), "compressed with gzip"),
         (b"\x04\x22\x4d\x18\x64\x40\xa7", "compressed with LZ4"),
-        (b"", "it is empty"),
+        (b"", "the file is empty"),
         (b"%PDF-1.7 abcdefghij", "a PDF document"),
     ],
 )

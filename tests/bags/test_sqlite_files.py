@@ -330,7 +330,7 @@ def test_a_journal_cannot_delete_other_files(tmp_path):
         journal.write(b"\xd9\xd5\x05\xf9\x20\xa1\x63\xd7")
     before = state(tmp_path)
     _, problems = messages_of(path)
-    assert "it belongs to several databases" in problems[0]
+    assert "the journal belongs to several databases" in problems[0]
     assert state(tmp_path) == before
 
 
@@ -345,7 +345,7 @@ def test_journals_that_are_not_regular_files(tmp_path, kind):
     if kind == "shm":
         assert (found, problems) == (40, [])
     else:
-        assert "it is a named pipe" in problems[0]
+        assert "the path is a named pipe" in problems[0]
         assert "the last messages are missing" in problems[0]
 
 

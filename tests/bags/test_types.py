@@ -20,7 +20,7 @@ from coframe.bags import Writer
 from coframe.messages import deserialize, find, serialize
 from coframe.messages.codec import deserialize_ros1
 from coframe.messages.definition_texts import definition_of
-from coframe.messages.packages import shipped, shipped_names
+from coframe.messages.packages import find_shipped, shipped_names
 from coframe.messages.schema_classes import ResolvedSchema, SchemaClasses, known_class
 from coframe.messages.schemas import parse_schema
 
@@ -29,7 +29,7 @@ noetic, humble = get_typestore(Stores.ROS1_NOETIC), get_typestore(Stores.ROS2_HU
 SHIPPED = [
     f"{package}/msg/{name}"
     for package in shipped_names()
-    for name in (shipped(package).names("msg") if "msg" in shipped(package).kinds() else [])
+    for name in (find_shipped(package).names("msg") if "msg" in find_shipped(package).kinds() else [])
 ]
 MEMBERS = [
     "turtlesim/action/RotateAbsolute_FeedbackMessage",
@@ -254,7 +254,7 @@ def test_definitions_have_limits_together(tmp_path, monkeypatch):
     recording = coframe.open_bag(tmp_path / "a.mcap")
     decoded = [next(recording.messages(topic)).message for topic in recording.topics]
     assert sum(isinstance(message, bytes) for message in decoded) in range(10, 14)
-    assert "the definitions of the recording have more than 100 bytes" in recording.problems[-1]
+    assert "the definitions of the recording exceed the maximum of 100 bytes" in recording.problems[-1]
     monkeypatch.undo()
     monkeypatch.setattr(schema_classes, "MAX_RECORDED_FIELDS", 10 * 21)
     recording = coframe.open_bag(tmp_path / "a.mcap")

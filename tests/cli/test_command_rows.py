@@ -28,6 +28,8 @@ ROOT = Path(__file__).parents[2]
 SOURCES = ROOT / "src"
 # Commands that join without --domain and --spin-time: they start nodes as processes, or wait for one server.
 WITHOUT_OPTIONS = {("launch",), ("run",), ("service", "call"), ("action", "send_goal")}
+# The decorator text_options combines these options to one argument, text_format.
+TEXT_OPTIONS = {"csv", "full_length", "truncate_length", "no_arr", "no_str", "flow_style"}
 # These modules start the nodes of the lab, which import ROS packages, as processes.
 LAUNCHERS = {"coframe.lab.launcher", "coframe.course.running"}
 
@@ -109,6 +111,8 @@ def test_only_commands_that_say_so_stand_on_ros_packages(name, imports):
 def test_every_declared_parameter_is_a_parameter_of_the_function(path):
     command = LEAVES[path]
     accepted = set(inspect.signature(inspect.unwrap(command.callback)).parameters) - {"context"}
+    if "text_format" in accepted:
+        accepted = accepted - {"text_format"} | TEXT_OPTIONS
     assert accepted == {parameter.name for parameter in command.params if parameter.expose_value}
 
 

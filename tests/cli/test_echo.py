@@ -32,7 +32,7 @@ def test_escape_sequences_in_frame_names_do_not_reach_the_terminal(capsys):
         asked = False
 
     with pytest.raises(StopError):
-        echo._wait_until_possible(Connection(), _NAME, "camera", 1)
+        echo._wait_for_transform(Connection(), _NAME, "camera", 1)
     printed, errors = capsys.readouterr()
     for text in (printed, errors):
         assert "\x1b" not in text

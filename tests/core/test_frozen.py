@@ -143,8 +143,8 @@ def test_threads_save_to_one_path(path):
         (lambda data: data[:20], "is damaged: it is truncated"),
         (lambda data: data[:-1], "is damaged: it is truncated"),
         (lambda data: data[:8] + b"\x07" + data[9:], "has version 7 of the format"),
-        (lambda data: data[:30] + b"\x07" + data[31:], "the checksum of its header is wrong"),
-        (lambda data: data[:-3] + b"\x07" + data[-2:], "the checksum of its table is wrong"),
+        (lambda data: data[:30] + b"\x07" + data[31:], "the checksum of the header is wrong"),
+        (lambda data: data[:-3] + b"\x07" + data[-2:], "the checksum of the table is wrong"),
     ],
 )
 def test_damaged_files_are_refused_with_the_reason(path, change, says):
@@ -160,7 +160,7 @@ def test_verify_finds_a_flipped_bit_in_the_samples(path):
     data[4096 + 5000] ^= 1
     path.write_bytes(data)
     coframe.load(path)
-    with pytest.raises(coframe.FrozenFileError, match="the checksum of its samples is wrong"):
+    with pytest.raises(coframe.FrozenFileError, match="the checksum of the samples is wrong"):
         coframe.load(path, verify=True)
 
 

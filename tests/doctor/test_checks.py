@@ -21,7 +21,7 @@ from coframe.doctor._edge import Edge
 from coframe.doctor._flicker import flicker
 from coframe.doctor._transforms import Transforms
 from coframe.doctor.rendering.plain import as_data
-from coframe.doctor.rendering.text import lines
+from coframe.doctor.rendering.text import report_lines
 from coframe.messages import find
 
 URDF = """<robot name="r"><link name="base_link"/><link name="lidar"/><link name="wheel"/>
@@ -371,7 +371,7 @@ def test_points_need_transforms_until_the_end_of_the_sweep(examine, measure):
     (sensor,) = report.sensors
     assert sensor.sweep == pytest.approx(100 * MS, abs=MS)
     assert sensor.possible == (0, 0, 90, 90)
-    text = "\n".join(line for _, line in lines(report))
+    text = "\n".join(line for _, line in report_lines(report))
     assert "from lidar to odom until the end of each sweep, 100 ms after its stamp: 0 of 90 messages" in text
 
 
@@ -515,7 +515,7 @@ def test_changing_transform_published_as_static(only):
         ((0, 0, 0, 0), "the rotation was not set", Severity.ERROR),
         ((0, 0, float("nan"), 1), "NaN", Severity.ERROR),
         ((0, 0, 0.5, 1), "is not normalized", Severity.ERROR),
-        ((0, 0, 1e308, 0), "its length is off by up to 1e+308", Severity.ERROR),
+        ((0, 0, 1e308, 0), "its length differs from 1 by up to 1e+308", Severity.ERROR),
         ((0, 0.707, 0, 0.707), "not exactly normalized", Severity.NOTE),
     ],
 )
@@ -735,7 +735,7 @@ def test_messages_beyond_the_limit_of_frame_names_are_counted(only, monkeypatch)
     for i in range(300):
         run.tf("map", f"track_{i}", later(i / 50), static=True)
     left_out, text = only(run, "TF027").text.split(" ", 1)
-    assert text == "messages were ignored: there are too many frame names"
+    assert text == "messages were ignored, because they exceed the maximum number of frame names"
     assert 100 < int(left_out) <= 200  # messages are processed in batches
 
 

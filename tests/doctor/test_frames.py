@@ -16,7 +16,7 @@ from runs import Run
 
 from coframe.cli import frames_screen
 from coframe.cli.app import app
-from coframe.cli.frames_screen import tree, tree_in_parts
+from coframe.cli.frames_screen import tree, tree_tables
 from coframe.doctor import observe_recording
 from coframe.tree_drawing import grow
 
@@ -185,8 +185,8 @@ def test_long_tables_are_printed_in_parts_that_look_like_one(tmp_path, monkeypat
     forest = grow(seen)
     whole, parts = (Console(file=io.StringIO(), width=width) for _ in range(2))
     whole.print(tree(forest))
-    monkeypatch.setattr(frames_screen, "_ROWS", 100)
-    for part in tree_in_parts(forest):
+    monkeypatch.setattr(frames_screen, "_MAX_TABLE_ROWS", 100)
+    for part in tree_tables(forest):
         parts.print(part)
-    assert len(list(tree_in_parts(forest))) == 7
+    assert len(list(tree_tables(forest))) == 7
     assert parts.file.getvalue() == whole.file.getvalue()

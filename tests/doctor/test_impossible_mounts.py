@@ -25,7 +25,7 @@ def mounted(parent, child, turn, place=(0.4, 0.1, 0.9), others=()):
     ("turn", "text"),
     [
         (Rotation.from_euler("xyz", [-90, 0, 0], True), "its z axis points left instead of forward"),
-        (Rotation.from_euler("xyz", [0, 0, -90], True), "if its roll is set: the published one is 0"),
+        (Rotation.from_euler("xyz", [0, 0, -90], True), "if its roll is set; the published value is 0"),
         (Rotation.identity(), "is not rotated relative to 'camera_link': its z axis points up instead of forward"),
         (OPTICAL.inv(), "if it is inverted"),
         (Rotation.from_euler("xyz", [-90.0, 0.0, -90.0]), "degrees that were used as radians"),

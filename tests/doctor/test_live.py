@@ -178,8 +178,10 @@ def test_transforms_and_messages_beyond_the_limits_are_reported(domain_id, event
 
         eventually(lambda: len(found()) == 2)
         since, incomplete = found()
-        assert re.fullmatch(r"only the transforms of the last [\d.]+ m?s were examined: there are too many", since)
-        assert incomplete == "some messages of /imu were not examined: there are too many"
+        assert re.fullmatch(
+            r"only the transforms of the last [\d.]+ m?s were examined, because more exceed the memory limit", since
+        )
+        assert incomplete == "some messages of /imu were not examined, because they exceed the memory limit"
         assert len(listening.observe().transforms) <= 41
 
 

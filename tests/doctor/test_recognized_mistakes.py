@@ -89,7 +89,7 @@ def test_a_mount_that_was_only_moved_has_no_cause(found):
     moving(run)
     finding = found(run, "TF023")
     assert " if " not in finding.text
-    assert finding.fix.startswith("Decide which pose is right.")
+    assert finding.fix.startswith("Decide which pose is correct.")
 
 
 @pytest.mark.parametrize(

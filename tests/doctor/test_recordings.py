@@ -24,7 +24,7 @@ EXPECTED = {
             "TF019",
             "note",
             "tilt_axis -> laser",
-            "178 of 178 quaternions are not exactly normalized: their length is off by up to 1.5e-06",
+            "178 of 178 quaternions are not exactly normalized: their length differs from 1 by up to 1.5e-06",
         ),
     },
     "epuck_webots": {

@@ -56,16 +56,16 @@ def _pipe(path: Path) -> None:
 
 
 KINDS: dict[str, Kind] = {
-    "pipe": Kind(_pipe, "it is a named pipe, not a regular file; write its content to a file first"),
-    "zero": Kind(lambda path: path.symlink_to("/dev/zero"), "it is a device"),
-    "random": Kind(lambda path: path.symlink_to("/dev/urandom"), "it is a device"),
-    "socket": Kind(_socket, "it is a socket"),
+    "pipe": Kind(_pipe, "the path is a named pipe, not a regular file; write its content to a file first"),
+    "zero": Kind(lambda path: path.symlink_to("/dev/zero"), "the path is a device"),
+    "random": Kind(lambda path: path.symlink_to("/dev/urandom"), "the path is a device"),
+    "socket": Kind(_socket, "the path is a socket"),
     "folder": Kind(lambda path: path.mkdir()),
     "loop": Kind(lambda path: path.symlink_to(path.name)),
     "nowhere": Kind(lambda path: path.symlink_to("nowhere")),
     "kernel": Kind(lambda path: path.symlink_to("/proc/self/environ")),
     "memory": Kind(lambda path: path.symlink_to("/proc/self/mem")),
-    "sparse": Kind(_sparse, "it is a sparse file"),
+    "sparse": Kind(_sparse, "the file is sparse"),
     "hole": Kind(_hole),
 }
 """By name. `sentence` is empty where the reader finds other words, such as those for a missing file."""

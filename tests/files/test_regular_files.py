@@ -31,7 +31,7 @@ def test_a_file_is_read_up_to_its_limit(tmp_path):
     assert read_regular_text(path, 13) == "first\nsecond"
     with open_regular(str(path)) as file:
         assert file.read(5) == b"first"
-    with pytest.raises(UnsuitableFileError, match=r"cannot be read: it is larger than the maximum of 12 bytes"):
+    with pytest.raises(UnsuitableFileError, match=r"cannot be read: the file is larger than the maximum of 12 bytes"):
         read_regular(path, 12)
     with pytest.raises(UnsuitableFileError, match="larger than the maximum of 12 bytes"):
         check_regular(path, 12)
@@ -42,7 +42,7 @@ def test_a_file_is_read_up_to_its_limit(tmp_path):
 def test_the_limit_is_stated_in_mebibytes(tmp_path):
     path = tmp_path / "large"
     path.write_bytes(bytes((2 << 20) + 1))
-    with pytest.raises(UnsuitableFileError, match="it is larger than the maximum of 2 MiB"):
+    with pytest.raises(UnsuitableFileError, match="the file is larger than the maximum of 2 MiB"):
         read_regular(path, 2 << 20)
 
 
@@ -51,9 +51,9 @@ def test_errors_are_those_of_the_system_and_of_values(tmp_path):
         read_regular(tmp_path / "none", 1)
     assert reading_hint(missing.value) == "Check the path and the permission to read it."
     for name in ("a\0b", "\ud800"):
-        with pytest.raises(UnsuitableFileError, match="its name is not valid"):
+        with pytest.raises(UnsuitableFileError, match="the name of the file is not valid"):
             open_regular(name)
-    with pytest.raises(ValueError, match="it is a folder, not a file") as folder:
+    with pytest.raises(ValueError, match="the path is a folder, not a file") as folder:
         open_regular(tmp_path)
     assert reading_hint(folder.value) == ""
 
@@ -71,7 +71,7 @@ def test_a_writer_that_waits_for_a_reader_still_waits(tmp_path):
 
     thread = threading.Thread(target=write, daemon=True)
     thread.start()
-    with pytest.raises(UnsuitableFileError, match="it is a named pipe"):
+    with pytest.raises(UnsuitableFileError, match="the path is a named pipe"):
         open_regular(path)
     assert not written.wait(0.2)
     assert path.read_text() == "content"
@@ -86,7 +86,7 @@ def test_a_file_that_becomes_a_pipe_is_refused(tmp_path, monkeypatch):
     path.unlink()
     os.mkfifo(path)
     monkeypatch.setattr("coframe._files.regular_files.os.stat", lambda _: before)
-    with pytest.raises(UnsuitableFileError, match="it is a named pipe"):
+    with pytest.raises(UnsuitableFileError, match="the path is a named pipe"):
         open_regular(path)
 
 
@@ -98,7 +98,7 @@ def test_files_with_plausible_holes_are_read(tmp_path):
     check_regular(path)
     os.truncate(path, 70 << 20)
     with pytest.raises(
-        UnsuitableFileError, match="it is a sparse file: the disk stores only 8192 of its 73400320 bytes"
+        UnsuitableFileError, match="the file is sparse: the disk stores only 8192 of its 73400320 bytes"
     ):
         check_regular(path)
     with path.open("r+b") as file:
@@ -116,9 +116,9 @@ def test_special_files_in_a_folder_do_not_hide_the_recording(tmp_path):
     with coframe.open_bag(tmp_path) as recording:
         assert sum(topic.messages for topic in recording.topics.values()) == COUNT + 1
         problems = "\n".join(recording.problems)
-    assert "metadata.yaml cannot be read: it is a named pipe" in problems
-    assert "run_1.mcap cannot be read: it is a named pipe" in problems
-    assert "run_2.mcap cannot be read: it is a device" in problems
+    assert "metadata.yaml cannot be read: the path is a named pipe" in problems
+    assert "run_1.mcap cannot be read: the path is a named pipe" in problems
+    assert "run_2.mcap cannot be read: the path is a device" in problems
     assert "notes" not in problems
 
 
@@ -131,7 +131,7 @@ def test_a_special_file_in_the_metadata_is_named(tmp_path):
     )
     with coframe.open_bag(tmp_path) as recording:
         assert recording.problems == [
-            "run_1.mcap cannot be read: it is a named pipe, not a regular file; write its content to a file first",
+            f"run_1.mcap cannot be read: {KINDS['pipe'].sentence}",
             "metadata.yaml lists run_2.mcap, which does not exist",
         ]
 

@@ -106,5 +106,6 @@ def test_a_pipe_on_purpose_gets_the_way_out():
     done = subprocess.run(command, input="content", capture_output=True, text=True, timeout=30, check=False)
     assert done.returncode == 1
     assert (
-        "/dev/stdin cannot be read: it is a pipe, not a regular file; write its content to a file first" in done.stderr
+        "/dev/stdin cannot be read: the path is a pipe, not a regular file; write its content to a file first"
+        in done.stderr
     )

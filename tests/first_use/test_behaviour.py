@@ -53,7 +53,7 @@ class TestFolders:
         recordings.write_mcap(tmp_path / "drive.mcap", rows=later)
         code, out, error = run("bag", "info", tmp_path)
         assert (code, out) == (1, "")
-        assert "contains 2 recordings that were made at different times: drive.mcap, lab.mcap" in error
+        assert "contains 2 recordings from different times: drive.mcap, lab.mcap" in error
         assert "Give the path of one of them." in error
 
     def test_a_split_recording_is_one(self, tmp_path):

@@ -9,7 +9,7 @@ import pytest
 
 from coframe.messages import find, serialize
 from coframe.messages.encapsulation import byte_order
-from coframe.messages.header_peek import StampReader, first_stamp, opens_with_header, peek_header, stamp_reader
+from coframe.messages.header_peek import StampReader, begins_with_header, first_stamp, peek_header, stamp_reader
 from coframe.messages.schema_classes import ResolvedSchema
 from coframe.messages.schemas import parse_schema
 from coframe.messages.slices import Slices
@@ -74,11 +74,11 @@ def test_a_damaged_header_is_not_read(message):
 
 
 def test_types_that_begin_with_a_header_are_known():
-    assert opens_with_header("sensor_msgs/msg/LaserScan")
-    assert not opens_with_header("std_msgs/msg/String")
-    assert not opens_with_header("tf2_msgs/msg/TFMessage")
-    assert not opens_with_header("custom_msgs/msg/Unknown")
-    assert not opens_with_header("no type at all")
+    assert begins_with_header("sensor_msgs/msg/LaserScan")
+    assert not begins_with_header("std_msgs/msg/String")
+    assert not begins_with_header("tf2_msgs/msg/TFMessage")
+    assert not begins_with_header("custom_msgs/msg/Unknown")
+    assert not begins_with_header("no type at all")
 
 
 def test_stamps_of_messages_with_a_header():

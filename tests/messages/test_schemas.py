@@ -208,17 +208,17 @@ HOSTILE_IDL = {
     "negative shift": (idl("const long A = 1 << -1;"), "line 3: a shift by -1 bits"),
     "product": (
         idl("const long A = 4294967295 * 4294967296 * 4294967296;"),
-        "line 3: a value of 96 bits, more than 64",
+        "line 3: a value of 96 bits; the maximum is 64",
     ),
     "sum": (idl("const long A = 18446744073709551615 + 18446744073709551615;"), "line 3: a value of 65 bits"),
     "division": (idl("const long A = 1 / 0;"), "line 3: a division by zero"),
     "power": (idl("const long A = 9 ** 99;"), "line 3: expected a value, found *"),
-    "digits": (idl(f"const long A = {'9' * 5000};"), "line 3: a number of 5000 characters, more than 400"),
+    "digits": (idl(f"const long A = {'9' * 5000};"), "line 3: a number of 5000 characters; the maximum is 400"),
     "parentheses": (
         idl(f"const long A = {'(' * 500}1{')' * 500};"),
         f"line 3: more than {MAX_NESTING} nested parentheses",
     ),
-    "signs": (idl(f"const long A = {'-' * 500}1;"), f"line 3: more than {MAX_NESTING} nested parentheses or signs"),
+    "signs": (idl(f"const long A = {'-' * 500}1;"), f"line 3: more than {MAX_NESTING} levels deep"),
     "modules": ("module a {" * 500, f"line 1: more than {MAX_NESTING} nested modules"),
     "sequences": (idl(fields="sequence<" * 300 + "long" + ">" * 300 + " x;"), "line 6: ROS does not support sequences"),
     "constants": (idl(MANY_CONSTANTS), f"line {MAX_CONSTANTS + 3}: more than {MAX_CONSTANTS} constants"),
@@ -250,14 +250,14 @@ HOSTILE_MSG = {
     ),
     "constants": ("\n".join(f"int32 A{i}=1" for i in range(MAX_CONSTANTS + 1)), f"line {MAX_CONSTANTS + 1}: more than"),
     "fields": ("".join(f"int32 a{i}\n" for i in range(20_001)), "line 20001: more than 20000 fields"),
-    "digits": (f"int32 x\nint32 A={'9' * 5000}", "line 2: a number of 5000 characters, more than 400"),
+    "digits": (f"int32 x\nint32 A={'9' * 5000}", "line 2: a number of 5000 characters; the maximum is 400"),
     "line": (f"int32 x\nstring A='{'a' * 30_000}'", "line 2: a line of 30011 characters"),
     "string length": ("string<=99999999999999 x", "line 1: a size must be from 1 to 4294967295"),
     "array": ("int32[99999999999] x", "line 1: a size must be from 1 to 4294967295"),
     "memory": ("int32 y\nstring[1000000000] x", "line 2: a message with default values would need"),
     "depth": (
         f"{CHAIN}{LINE}MSG: lab/L{MAX_DEPTH + 1}\nint32 x\n",
-        f"line {3 * MAX_DEPTH + 1}: more than {MAX_DEPTH} nested messages",
+        f"line {3 * MAX_DEPTH + 1}: more than {MAX_DEPTH} levels deep",
     ),
     "cycle": (f"lab/A x\n{LINE}MSG: lab/A\nint32 y\nlab/A[] x\n", "line 5: a message cannot contain itself"),
     "doubling": (
@@ -268,7 +268,7 @@ HOSTILE_MSG = {
     ),
     "loops": (
         "lab/L0[] a\n" + "".join(f"MSG: lab/L{i}\nlab/L{i + 1}[] a\n" for i in range(30)) + "MSG: lab/L30\nint32 x\n",
-        "line 1: more than 16 nested sequences",
+        "line 1: more than 16 levels deep",
     ),
     "missing": (
         f"lab/A x\n{LINE}MSG: lab/A\nint32 y\nlab/Gone x\n",
@@ -276,7 +276,7 @@ HOSTILE_MSG = {
     ),
     "title": (f"int32 x\n{LINE}MSG: __class__\nint32 x\n", "line 3: '__class__' is not the name of a message type"),
     "reserved": ("int32 Message__values", "line 1: the name 'Message__values' is reserved"),
-    "bytes": ("#" * MAX_DEFINITION + "\n", f"a definition of {MAX_DEFINITION + 1} bytes"),
+    "bytes": ("#" * MAX_DEFINITION + "\n", f"the definition has {MAX_DEFINITION + 1} bytes"),
 }
 
 

@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 from coframe.messages import find, registry
-from coframe.messages.packages import shipped
+from coframe.messages.packages import find_shipped
 from coframe.messages.type_hash import type_hash
 from sensor_msgs.msg import Image
 
@@ -115,7 +115,7 @@ def test_importing_packages_creates_no_class_and_costs_little(monkeypatch: pytes
         for loaded in (name, name.partition(".")[0]):
             monkeypatch.delitem(sys.modules, loaded, raising=False)
     known = dict(registry.classes)
-    shipped.cache_clear()
+    find_shipped.cache_clear()
     begin = time.process_time()
     for name in names:
         importlib.import_module(name)

@@ -80,7 +80,7 @@ def test_an_unknown_name_is_one_sentence_with_suggestions(workspace):
     assert "No executable 'talkr' in the package 'demo_pkg'." in result.stderr
     assert "Did you mean 'talker'? Its executables: listener, talker, third." in result.stderr
     result = run("helpers_pkg", "x", cwd=workspace)
-    assert "declares none: console_scripts of setup.py" in result.stderr
+    assert "declares none. coframe reads console_scripts of setup.py" in result.stderr
 
 
 def test_an_installed_package_comes_before_its_source_and_the_source_before_a_built_in_one(workspace, monkeypatch):

@@ -120,7 +120,7 @@ def test_joint_states_become_a_buffer(robot):
         assert buffer.lookup("base", link, when).is_close(expected[link], translation=1e-12, rotation=1e-12)
     assert [edge.child for edge in buffer.edges() if edge.static] == ["hand"]  # nothing moves the slide
     assert buffer.span("base", "right") == (SECOND, 3 * SECOND)
-    with pytest.raises(ValueError, match="there is no JointState message"):
+    with pytest.raises(ValueError, match="the list contains no JointState message"):
         robot.buffer([])
 
 

@@ -179,13 +179,13 @@ def test_the_first_of_several_elements_counts():
     assert (moved.origin.translation.tolist(), moved.axis, moved.limits.upper) == ([1, 0, 0], (0, 0, 1), 1)
     assert robot.links["d"].visuals[0].geometry == Box((1, 1, 1))
     assert [warning.partition(";")[0] for warning in robot.warnings] == [
-        "line 5: there is a second <origin> in one <visual>",
-        "line 5: there is a second <geometry> in one <visual>",
+        "line 5: <origin> in one <visual>",
+        "line 5: <geometry> in one <visual>",
         "line 5: <geometry> contains 2 shapes",
-        "line 6: there is a second <child> in one <joint>",
-        "line 6: there is a second <origin> in one <joint>",
-        "line 6: there is a second <axis> in one <joint>",
-        "line 6: there is a second <limit> in one <joint>",
+        "line 6: <child> in one <joint>",
+        "line 6: <origin> in one <joint>",
+        "line 6: <axis> in one <joint>",
+        "line 6: <limit> in one <joint>",
     ]
 
 
@@ -214,7 +214,7 @@ def test_a_joint_without_a_direction_does_not_move(kind):
 @pytest.mark.parametrize(
     ("version", "rpy", "warning"),
     [
-        ("1.0", [0, 0, 0], 'line 5: quat_xyzw is ignored, because it needs <robot version="1.1">'),
+        ("1.0", [0, 0, 0], 'line 5: quat_xyzw is ignored, because it requires <robot version="1.1">'),
         ("1.1", [0, 0, 3], None),
         ("1.2", [0, 0, 3], None),
         ("1.7", [0, 0, 3], "line 1: the version '1.7' is unknown. ROS reads the versions 1.0, 1.1 and 1.2"),
@@ -283,7 +283,7 @@ def test_faults_of_xml_that_ros_accepts_are_repaired(text, links):
     robot = parse_urdf(document)
     assert list(robot.links) == links
     assert [("not well-formed XML" in warning, warning[-17:]) for warning in robot.warnings] == [
-        (True, ". It was repaired")
+        (True, ". The document was repaired")
     ]
     assert list(parse_urdf(robot.text).links) == links
     assert parse_urdf(robot.text).warnings == ()
@@ -364,7 +364,7 @@ def test_the_time_for_a_repair_is_linear():
         (
             [joint("ab", "a", "b", "<mimic joint='ab'/>", "continuous"), TREE[1]],
             None,
-            ["joints mimic each other in a circle: ab;"],
+            ["joints mimic each other in a loop: ab;"],
         ),
     ],
 )

@@ -69,7 +69,7 @@ def test_stamps_of_tum_files_are_exact(tmp_path, stamp, expected):
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("", "it is empty"),
+        ("", "the file is empty"),
         ("# nothing\n", "contains no poses"),
         ("1 2 3\n", "is not a trajectory: line 1 has 3 columns separated by spaces"),
         ("1 0 0 0 0 0 0 1\n2 0 0\n", "line 2: 3 columns; the lines above have 8"),
@@ -141,7 +141,7 @@ def test_a_file_with_more_poses_than_the_limit_is_refused(tmp_path, monkeypatch,
 def test_a_small_npz_file_that_unpacks_to_a_large_one_is_refused(tmp_path):
     header = b"{'descr': '<f8', 'fortran_order': False, 'shape': (20000000, 3), }"
     npz(tmp_path / "a.npz", header, bytes(300_000_000))
-    with pytest.raises(TrajectoryError, match=r"it unpacks to 3000.* bytes; the limit is 268435456"):
+    with pytest.raises(TrajectoryError, match=r"it unpacks to 3000.* bytes; the maximum is 268435456"):
         read_trajectory(tmp_path / "a.npz")
 
 

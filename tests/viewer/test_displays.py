@@ -268,7 +268,7 @@ def test_drawings_beyond_the_limit_are_counted(ros, robot, view, open_tab, monke
     array_type = find("visualization_msgs/msg/MarkerArray")
     publisher = RepeatingPublisher(ros, tab, "/markers", array_type(markers=markers))
     shown = publisher.until("display", lambda display: display["state"] == "error")
-    assert shown["text"] == "not drawn: 1 group of markers; a message has at most 2"
+    assert shown["text"] == "not drawn: 1 group of markers; the maximum per message is 2"
     tab.frame_update(lambda update: len(update.displays) == 2)
 
 

@@ -84,7 +84,7 @@ def test_an_address_of_another_machine_gives_a_message():
     result = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (result.returncode, result.stdout) == (1, "")
     assert result.stderr == (
-        "coframe: cannot listen on 192.0.2.1: it is not an address of this machine\n"
+        "coframe: cannot listen on 192.0.2.1: this machine does not have that address\n"
         "  Choose another host, or 127.0.0.1.\n"
     )
 

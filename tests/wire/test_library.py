@@ -97,14 +97,17 @@ def test_a_library_of_another_release(tmp_path, usable):
     assert place.version == "12.1.0"
     text = load_in_a_process(COFRAME_DDS_LIBRARY=str(tmp_path / "libddsc.so.12.1.0"))
     assert f"The DDS library {tmp_path}/libddsc.so.12.1.0 (version 12.1.0, from COFRAME_DDS_LIBRARY)" in text
-    assert "cannot be used: it has an incompatible binary interface. coframe supports Cyclone DDS 0.10 and 11." in text
+    assert (
+        "cannot be used because it has an incompatible binary interface. coframe supports Cyclone DDS 0.10 and 11."
+        in text
+    )
 
 
 def test_a_library_without_the_functions(tmp_path):
     other = tmp_path / "libddsc.so"
     shutil.copy(coframe._core.__file__, other)
     text = load_in_a_process(COFRAME_DDS_LIBRARY=str(other))
-    assert f"The DDS library {other} (from COFRAME_DDS_LIBRARY) cannot be used: it has no function dds_" in text
+    assert f"The DDS library {other} (from COFRAME_DDS_LIBRARY) cannot be used because it has no function dds_" in text
 
 
 def test_a_file_that_is_not_a_library_is_passed_over(tmp_path, usable):
@@ -120,7 +123,7 @@ def test_a_file_that_is_not_a_library_is_passed_over(tmp_path, usable):
     )
     text = load_in_a_process(code)
     assert text.startswith("the system | ")
-    assert "from coframe's own wheel) cannot be used: it cannot be loaded (" in text
+    assert "from coframe's own wheel) cannot be used because it cannot be loaded (" in text
 
 
 def test_without_any_library():

@@ -177,7 +177,9 @@ def test_replies_that_are_not_understood_are_counted(participant, node, ros_peer
         assert [request_header.split(reply.data) for reply in taken] == [(header, response)]
     eventually(lambda: requests._endpoint.ignored == 8)
     [warning] = [record.message for record in caplog.records if "/switch" in record.message]
-    assert warning.startswith("A reply of /switch is ignored: it is not a reply of rmw_zenoh_cpp to this client. ")
+    assert warning.startswith(
+        "A reply of /switch is ignored, because it is not a reply of rmw_zenoh_cpp to this client. "
+    )
 
 
 def test_its_client_calls_our_service(participant, node, ros_peer, eventually):

@@ -47,7 +47,7 @@ def parsed(name: str, *words: str) -> click.Context:
 def test_the_option_chooses_the_middleware(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COFRAME_WIRE", "dds")
     monkeypatch.setattr(selection, "_command_line_choice", {})
-    monkeypatch.setattr(python_children, "_passed", {})
+    monkeypatch.setattr(python_children, "_passed_variables", {})
     assert parsed("lookup", "a", "--wire", "zenoh", "b").params["names"] == ("a", "b")
     assert selection.select() == ("zenoh", "--wire is given")
     assert os.environ["COFRAME_WIRE"] == "dds", "a choice for this process does not change its environment"

@@ -36,33 +36,33 @@ class LineLimit:
         self._write = write
         self._clock = clock
         self._lock = threading.Lock()
-        self._since = clock()
-        self._shown = 0  # lines since then
+        self._window_start = clock()
+        self._shown_lines = 0  # lines since then
         self.omitted = 0
         """The number of lines that were not shown and not reported yet."""
 
     def __call__(self, text: str) -> None:
         """Show a message of one or more lines, without a trailing newline, or count its lines as omitted."""
         with self._lock:
-            if self._clock() - self._since >= 1.0:
-                self._report()
-                self._since, self._shown = self._clock(), 0
+            if self._clock() - self._window_start >= 1.0:
+                self._report_omitted()
+                self._window_start, self._shown_lines = self._clock(), 0
             lines = text.split("\n")
-            left = MAX_LINES - self._shown
-            fitting = _count_fitting(lines, left)
-            if fitting < len(lines) and (self._shown or fitting == 0):
+            left = MAX_LINES - self._shown_lines
+            fitting = _count_fitting_lines(lines, left)
+            if fitting < len(lines) and (self._shown_lines or fitting == 0):
                 self.omitted += len(lines)
                 return
-            self._shown += sum(map(_weight, lines[:fitting]))
+            self._shown_lines += sum(map(_line_weight, lines[:fitting]))
             self.omitted += len(lines) - fitting
             self._write("\n".join(lines[:fitting]))
 
     def close(self) -> None:
         """Report how many lines were not shown since the last report."""
         with self._lock:
-            self._report()
+            self._report_omitted()
 
-    def _report(self) -> None:
+    def _report_omitted(self) -> None:
         if self.omitted:
             omitted, self.omitted = self.omitted, 0
             self._write(f"... {omitted} more lines not shown, because more than {MAX_LINES} arrived in a second")
@@ -82,16 +82,16 @@ def print_bounded(text: str, *, error: bool = False) -> None:
         print(text, file=stream, flush=True)
 
 
-def _count_fitting(lines: list[str], room: int) -> int:
+def _count_fitting_lines(lines: list[str], room: int) -> int:
     """Return how many of the first lines can be shown."""
     for number, line in enumerate(lines):
-        room -= _weight(line)
+        room -= _line_weight(line)
         if room < 0:
             return number
     return len(lines)
 
 
-def _weight(line: str) -> int:
+def _line_weight(line: str) -> int:
     return 1 + len(line) // _LINE_LENGTH
 
 

@@ -30,11 +30,11 @@ def read_xml(file: str | os.PathLike[str] | IO[Any]) -> ET.Element:
     if hasattr(file, "read"):
         text = file.read(MAX_BYTES + 1)
         if len(text) > MAX_BYTES:
-            raise ValueError(f"it is larger than the maximum of {MAX_BYTES >> 20} MiB")
+            raise ValueError(f"the document is larger than the maximum of {MAX_BYTES >> 20} MiB")
     else:
         text = read_regular(file, MAX_BYTES)
     if ("<!ENTITY" if isinstance(text, str) else b"<!ENTITY") in text:
-        raise ValueError("it defines entities, which are not allowed because they can expand without limit")
+        raise ValueError("the document defines entities, which are not allowed because they can expand without limit")
     parser = ET.XMLParser(target=_Builder())  # noqa: S314 - entities are refused above
     try:
         parser.feed(text)
@@ -54,7 +54,7 @@ class _Builder(ET.TreeBuilder):
     def start(self, tag: Any, attrs: Any, /) -> ET.Element:
         self._depth += 1
         if self._depth > MAX_DEPTH:
-            raise ValueError(f"it is nested more than {MAX_DEPTH} levels deep")
+            raise ValueError(f"the document is nested more than {MAX_DEPTH} levels deep")
         return super().start(tag, attrs)
 
     def end(self, tag: Any, /) -> ET.Element:

@@ -16,8 +16,10 @@ MAX_DEPTH = 100
 MAX_VALUES = 1 << 18
 MAX_DIGITS = 100  # of an integer; one in base 60, such as 1:30:00, takes quadratic time
 _INTEGER = "tag:yaml.org,2002:int"
-_TOO_DEEP = f"it is nested more than {MAX_DEPTH} levels deep"
-_PARSER_TOO_DEEP = "maximum nesting depth"  # newer parsers have their own limit, and may reach it before _check
+_DEPTH_ERROR = f"the document is nested more than {MAX_DEPTH} levels deep"
+_PARSER_DEPTH_ERROR = (
+    "maximum nesting depth"  # newer parsers have their own limit, and may reach it before _check_document
+)
 
 
 def read_yaml(
@@ -43,7 +45,7 @@ def read_yaml(
             yaml.add_constructor(tag, construct, Loader=loader)
         return _deep_copy(yaml.load(text, Loader=loader))
 
-    return _within_limits(text, max_bytes, load)
+    return _load_checked(text, max_bytes, load)
 
 
 def yaml_events(text: str | bytes, max_bytes: int = MAX_BYTES) -> list[Any]:
@@ -51,7 +53,7 @@ def yaml_events(text: str | bytes, max_bytes: int = MAX_BYTES) -> list[Any]:
 
     The arguments and errors are those of :func:`read_yaml`.
     """
-    events: list[Any] = _within_limits(text, max_bytes, lambda yaml, base: list(yaml.parse(text, Loader=base)))
+    events: list[Any] = _load_checked(text, max_bytes, lambda yaml, base: list(yaml.parse(text, Loader=base)))
     return events
 
 
@@ -66,20 +68,20 @@ class _SyntaxError(ValueError):
         self.position = position
 
 
-def _within_limits(text: str | bytes, max_bytes: int, load: Callable[[Any, Any], Any]) -> Any:
+def _load_checked(text: str | bytes, max_bytes: int, load: Callable[[Any, Any], Any]) -> Any:
     """Check the limits, then return the result of a function that takes the yaml module and a loader."""
     yaml: Any = importlib.import_module("yaml")
     if len(text) > max_bytes:
-        raise ValueError(f"it is larger than the maximum of {max_bytes >> 20} MiB")
+        raise ValueError(f"the document is larger than the maximum of {max_bytes >> 20} MiB")
     base = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
         # PyYAML recurses without a limit and follows aliases of aliases; the event stream reveals both before that.
-        _check(yaml.parse(text, Loader=base), yaml)
+        _check_document(yaml.parse(text, Loader=base), yaml)
         return load(yaml, base)
     except (yaml.YAMLError, ValueError, TypeError, OverflowError) as error:
         reason = " ".join(str(error).split())
-        if _PARSER_TOO_DEEP in reason:
-            raise ValueError(_TOO_DEEP) from None
+        if _PARSER_DEPTH_ERROR in reason:
+            raise ValueError(_DEPTH_ERROR) from None
         mark = getattr(error, "problem_mark", None)
         if mark is not None:
             raise _SyntaxError(reason, (mark.line, mark.column)) from None
@@ -98,7 +100,7 @@ class _Extents:
     """Counts the values of a document with its aliases replaced by copies, and their nesting depth."""
 
     def __init__(self) -> None:
-        self._of_anchor: dict[str, tuple[int, int]] = {}  # values and levels
+        self._anchor_extents: dict[str, tuple[int, int]] = {}  # values and levels
         self._open: list[tuple[str | None, int, int]] = [(None, 0, 0)]  # anchor, values and levels of the collections
 
     def begin(self, anchor: str | None) -> None:
@@ -111,24 +113,24 @@ class _Extents:
 
     def add(self, values: int, levels: int, anchor: str | None = None) -> None:
         if anchor is not None:
-            self._of_anchor[anchor] = (values, levels)
+            self._anchor_extents[anchor] = (values, levels)
         around, before, deepest = self._open[-1]
         self._open[-1] = (around, before + values, max(deepest, levels))
         if before + values > MAX_VALUES:
-            raise ValueError(f"with its aliases (*) replaced by copies it has more than {MAX_VALUES} values")
+            raise ValueError(f"the document has more than {MAX_VALUES} values after its aliases (*) are expanded")
         self._check_depth(levels)
 
     def alias(self, anchor: str) -> None:
         if any(anchor == around for around, _, _ in self._open):
             raise ValueError("an alias (*) refers to a node that contains it")
-        self.add(*self._of_anchor.get(anchor, (1, 1)))
+        self.add(*self._anchor_extents.get(anchor, (1, 1)))
 
     def _check_depth(self, levels: int) -> None:
         if len(self._open) + levels > MAX_DEPTH + 1:
-            raise ValueError(_TOO_DEEP)
+            raise ValueError(_DEPTH_ERROR)
 
 
-def _check(events: Any, yaml: Any) -> None:
+def _check_document(events: Any, yaml: Any) -> None:
     """Raise ValueError if a document is nested too deeply, or is too large with its aliases replaced by copies."""
     extents = _Extents()
     for event in events:

@@ -8,31 +8,31 @@ __all__ = ["BEGINNING", "what_else"]
 BEGINNING = 16
 """Bytes from the beginning of a file that are enough."""
 
-_TEXT_MODE = "its line ends were changed, as by a transfer in text mode or by Git; transfer it as a binary file"
+_TEXT_MODE = "a transfer in text mode, or Git, has changed the line ends; transfer the file in binary mode"
 _KINDS = {
-    b"version https://": "it is a pointer of Git LFS, not the file itself; `git lfs pull` downloads that",
-    b"\x1f\x8b": "it is compressed with gzip; unpack it with gunzip",
-    b"\x28\xb5\x2f\xfd": "it is compressed with Zstandard; unpack it with unzstd",
-    b"\x04\x22\x4d\x18": "it is compressed with LZ4; unpack it with unlz4",
-    b"BZh": "it is compressed with bzip2; unpack it with bunzip2",
-    b"\xfd7zXZ\0": "it is compressed with xz; unpack it with unxz",
-    b"PK\x03\x04": "it is a zip archive; unpack it with unzip",
-    b"7z\xbc\xaf": "it is a 7z archive; unpack it",
-    b"<!DOCTYPE": "it is a web page, probably from a failed download",
-    b"<!doctype": "it is a web page, probably from a failed download",
-    b"<html": "it is a web page, probably from a failed download",
-    b"PAR1": "it is a Parquet file; pandas.read_parquet reads it",
-    b"\x89HDF": "it is an HDF5 file; h5py reads it",
-    b"\x93NUMPY": "it is an .npy array of NumPy; numpy.load reads it",
+    b"version https://": "the file is a Git LFS pointer; download the content with `git lfs pull`",
+    b"\x1f\x8b": "the file is compressed with gzip; unpack it with gunzip",
+    b"\x28\xb5\x2f\xfd": "the file is compressed with Zstandard; unpack it with unzstd",
+    b"\x04\x22\x4d\x18": "the file is compressed with LZ4; unpack it with unlz4",
+    b"BZh": "the file is compressed with bzip2; unpack it with bunzip2",
+    b"\xfd7zXZ\0": "the file is compressed with xz; unpack it with unxz",
+    b"PK\x03\x04": "the file is a zip archive; unpack it with unzip",
+    b"7z\xbc\xaf": "the file is a 7z archive; unpack it with 7z",
+    b"<!DOCTYPE": "the file is a web page, probably from a failed download",
+    b"<!doctype": "the file is a web page, probably from a failed download",
+    b"<html": "the file is a web page, probably from a failed download",
+    b"PAR1": "the file is a Parquet file; pandas.read_parquet reads it",
+    b"\x89HDF": "the file is an HDF5 file; h5py reads it",
+    b"\x93NUMPY": "the file is an .npy array of NumPy; numpy.load reads it",
     b"\x89MCAP0\r\r\n": _TEXT_MODE,
     b"\x89MCAP0\n": _TEXT_MODE,
     b"#ROSBAG V2.0\r\n": _TEXT_MODE,
-    b"\x89MCAP": "it is a recording (MCAP)",
-    b"SQLite format 3": "it is a database, perhaps a recording (SQLite)",
-    b"#ROSBAG V": "it is a recording (ROS 1 bag)",
-    b"%PDF": "it is a PDF document",
-    b"\x7fELF": "it is a program",
-    bytes(16): "it begins with zeros; its beginning was never written, or is lost",
+    b"\x89MCAP": "the file is a recording (MCAP)",
+    b"SQLite format 3": "the file is a database, perhaps a recording (SQLite)",
+    b"#ROSBAG V": "the file is a recording (ROS 1 bag)",
+    b"%PDF": "the file is a PDF document",
+    b"\x7fELF": "the file is a program",
+    bytes(16): "the file begins with zeros: its beginning was never written, or is lost",
 }
 
 
@@ -43,5 +43,5 @@ def what_else(beginning: bytes) -> str:
         beginning: The first `BEGINNING` bytes; fewer if the file is shorter.
     """
     if not beginning:
-        return "it is empty (0 bytes)"
+        return "the file is empty (0 bytes)"
     return next((what for first, what in _KINDS.items() if beginning.startswith(first)), "")

@@ -26,11 +26,11 @@ __all__ = ["UnsuitableFileError", "check_regular", "open_regular", "read_regular
 # Without O_NONBLOCK, opening a named pipe would wait for a writer. It changes nothing for regular files.
 _FLAGS: Final = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
 _KINDS: Final[tuple[tuple[Callable[[int], bool], str], ...]] = (
-    (stat.S_ISDIR, "it is a folder, not a file"),
-    (stat.S_ISFIFO, "it is a named pipe, not a regular file; write its content to a file first"),
-    (stat.S_ISSOCK, "it is a socket, not a regular file"),
-    (stat.S_ISCHR, "it is a device, not a regular file"),
-    (stat.S_ISBLK, "it is a device, not a regular file"),
+    (stat.S_ISDIR, "the path is a folder, not a file"),
+    (stat.S_ISFIFO, "the path is a named pipe, not a regular file; write its content to a file first"),
+    (stat.S_ISSOCK, "the path is a socket, not a regular file"),
+    (stat.S_ISCHR, "the path is a device, not a regular file"),
+    (stat.S_ISBLK, "the path is a device, not a regular file"),
 )
 # Sparse files below this size are accepted, and larger ones if the stored part is plausible for a compressing file
 # system.
@@ -64,7 +64,7 @@ def open_regular(path: str | os.PathLike[str]) -> BinaryIO:
     except OSError:
         raise
     except ValueError:  # a NUL, or a character that file names cannot have
-        raise UnsuitableFileError(errno.EINVAL, "its name is not valid", os.fspath(path)) from None
+        raise UnsuitableFileError(errno.EINVAL, "the name of the file is not valid", os.fspath(path)) from None
 
 
 def read_regular(path: str | os.PathLike[str], max_bytes: int) -> bytes:
@@ -85,7 +85,7 @@ def read_regular(path: str | os.PathLike[str], max_bytes: int) -> bytes:
             error.filename = os.fspath(path)
             raise
     if content is None:  # kernel files, which block until there is an event
-        raise UnsuitableFileError(errno.EAGAIN, "it has no content yet", os.fspath(path))
+        raise UnsuitableFileError(errno.EAGAIN, "the file has no content yet", os.fspath(path))
     if len(content) > max_bytes:
         raise _too_large(path, max_bytes)
     return content
@@ -130,7 +130,7 @@ def reading_hint(error: OSError) -> str:
 
 def _too_large(path: str | os.PathLike[str], max_bytes: int) -> UnsuitableFileError:
     limit = f"{max_bytes >> 20} MiB" if max_bytes >= 1 << 20 else f"{max_bytes} bytes"
-    return UnsuitableFileError(errno.EFBIG, f"it is larger than the maximum of {limit}", os.fspath(path))
+    return UnsuitableFileError(errno.EFBIG, f"the file is larger than the maximum of {limit}", os.fspath(path))
 
 
 def _open(path: str, _flags: int) -> int:
@@ -145,11 +145,11 @@ def _open(path: str, _flags: int) -> int:
 
 def _check(found: os.stat_result, path: str | os.PathLike[str]) -> None:
     if not stat.S_ISREG(found.st_mode):
-        kind = next((text for has, text in _KINDS if has(found.st_mode)), "it is not a regular file")
+        kind = next((text for has, text in _KINDS if has(found.st_mode)), "the path is not a regular file")
         if os.fspath(path).startswith(_UNNAMED_PIPES):
             kind = kind.replace("named pipe", "pipe")
         raise UnsuitableFileError(errno.EINVAL, kind, os.fspath(path))
     stored = getattr(found, "st_blocks", 0) * _BLOCK
     if stored >= _MIN_STORED and found.st_size > max(MAX_SPARSE, MAX_SPARSE_RATIO * stored):
-        reason = f"it is a sparse file: the disk stores only {stored} of its {found.st_size} bytes"
+        reason = f"the file is sparse: the disk stores only {stored} of its {found.st_size} bytes"
         raise UnsuitableFileError(errno.EFBIG, reason, os.fspath(path))

@@ -16,7 +16,7 @@ if sys.platform != "win32":
 __all__ = ["temporary_folder"]
 
 _LOCK = ".lock"
-_NEW_LOCK = ".lock-new"  # prefix of its name until it is locked
+_NEW_LOCK_PREFIX = ".lock-new"  # prefix of its name until it is locked
 
 
 def temporary_folder(prefix: str) -> tempfile.TemporaryDirectory[str]:
@@ -40,19 +40,19 @@ class _LockedFolder(tempfile.TemporaryDirectory[str]):
 
     def __init__(self, prefix: str) -> None:
         super().__init__(prefix=prefix, ignore_cleanup_errors=True)
-        self._unlocking = ExitStack()
+        self._lock_release = ExitStack()
         if sys.platform == "win32":  # A killed process leaves its folder behind.
             return
-        new = Path(self.name, _NEW_LOCK)
+        new = Path(self.name, _NEW_LOCK_PREFIX)
         with suppress(OSError):  # The file system has no locks: the folder is left behind as well.
             descriptor = os.open(new, os.O_RDWR | os.O_CREAT, 0o600)
-            self._unlocking.callback(os.close, descriptor)
+            self._lock_release.callback(os.close, descriptor)
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
             new.rename(new.with_name(_LOCK))
 
     def cleanup(self) -> None:
         """Remove the folder."""
-        self._unlocking.close()
+        self._lock_release.close()
         super().cleanup()
 
 

@@ -7,7 +7,7 @@ __all__ = ["MAX_LINE_LENGTH", "MAX_NAME_LENGTH", "csv_cell", "display_name", "on
 
 MAX_NAME_LENGTH = 60
 MAX_LINE_LENGTH = 2000
-_FORMULA = ("=", "+", "-", "@", "\t", "\r")
+_FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
 
 
 def printable(text: str) -> str:
@@ -42,11 +42,11 @@ def display_name(name: str) -> str:
         ('base_link', 'two\\nlines', 60)
     """
     # A long name is shortened first, so that the rest of it costs nothing.
-    short = _shortened(name, MAX_NAME_LENGTH)
-    return _shortened("".join(c if c.isprintable() else repr(c)[1:-1] for c in short), MAX_NAME_LENGTH)
+    short = _truncate_middle(name, MAX_NAME_LENGTH)
+    return _truncate_middle("".join(c if c.isprintable() else repr(c)[1:-1] for c in short), MAX_NAME_LENGTH)
 
 
-def _shortened(text: str, longest: int) -> str:
+def _truncate_middle(text: str, longest: int) -> str:
     half = longest // 2
     return text if len(text) <= longest else f"{text[: half - 1]}\N{HORIZONTAL ELLIPSIS}{text[-half:]}"
 
@@ -58,4 +58,4 @@ def csv_cell(value: object) -> object:
         >>> csv_cell("=1+1"), csv_cell(-1.5)
         ("'=1+1", -1.5)
     """
-    return f"'{value}" if isinstance(value, str) and value.startswith(_FORMULA) else value
+    return f"'{value}" if isinstance(value, str) and value.startswith(_FORMULA_STARTS) else value

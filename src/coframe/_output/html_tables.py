@@ -31,7 +31,7 @@ def section(title: str, *parts: str) -> str:
         title: The title as text.
         parts: HTML, as the other functions return it; empty parts are skipped.
     """
-    heading = f'<div style="font-weight: bold; margin-bottom: 0.3em">{_escaped(title)}</div>'
+    heading = f'<div style="font-weight: bold; margin-bottom: 0.3em">{_escape(title)}</div>'
     return '<div style="color: inherit">' + heading + "".join(parts) + "</div>"
 
 
@@ -49,9 +49,9 @@ def table(titles: Sequence[str], rows: Iterable[Sequence[object]], total: int, n
     """
     if total == 0:
         return ""
-    head = "".join(f'<th style="{_CELL}; border-bottom: {_BORDER}">{_escaped(title)}</th>' for title in titles)
+    head = "".join(f'<th style="{_CELL}; border-bottom: {_BORDER}">{_escape(title)}</th>' for title in titles)
     body = "".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in islice(rows, MAX_ROWS))
-    more = paragraph(_more(total, noun)) if total > MAX_ROWS else ""
+    more = paragraph(_omitted_rows_text(total, noun)) if total > MAX_ROWS else ""
     return (
         '<table style="border-collapse: collapse; color: inherit; background: transparent">'
         f"<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{more}"
@@ -59,26 +59,26 @@ def table(titles: Sequence[str], rows: Iterable[Sequence[object]], total: int, n
 
 
 def _cell(value: object) -> str:
-    return f'<td style="{_CELL}">{_escaped(str(value))}</td>'
+    return f'<td style="{_CELL}">{_escape(str(value))}</td>'
 
 
 def paragraph(text: str) -> str:
     """Return text as a paragraph; "" for an empty text."""
-    return f'<div style="margin: 0.3em 0">{_escaped(text)}</div>' if text else ""
+    return f'<div style="margin: 0.3em 0">{_escape(text)}</div>' if text else ""
 
 
 def preformatted(lines: Sequence[str]) -> str:
     """Return at most `MAX_ROWS` lines in a fixed-width font, followed by the number of omitted lines."""
-    shown = "\n".join(_escaped(line) for line in lines[:MAX_ROWS])
-    more = paragraph(_more(len(lines), "line")) if len(lines) > MAX_ROWS else ""
+    shown = "\n".join(_escape(line) for line in lines[:MAX_ROWS])
+    more = paragraph(_omitted_rows_text(len(lines), "line")) if len(lines) > MAX_ROWS else ""
     return f'<pre style="margin: 0; color: inherit; background: transparent">{shown}</pre>{more}'
 
 
-def _more(total: int, noun: str) -> str:
+def _omitted_rows_text(total: int, noun: str) -> str:
     return "and " + count(total - MAX_ROWS, f"more {noun}")
 
 
-def _escaped(text: str) -> str:
+def _escape(text: str) -> str:
     """Return text escaped for HTML and shortened, without control characters and bidirectional marks."""
     short = text if len(text) <= _MAX_TEXT_LENGTH else f"{text[:_MAX_TEXT_LENGTH]}..."
     return html.escape("".join(c if c.isprintable() else ascii(c)[1:-1] for c in short))

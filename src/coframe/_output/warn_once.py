@@ -13,7 +13,7 @@ __all__ = ["LAST_WARNING", "MAX_WARNINGS", "WarnOnce"]
 MAX_WARNINGS = 1000
 """The maximum number of warnings per process, because they contain names from the network."""
 
-LAST_WARNING = f"No more warnings are shown: there were {MAX_WARNINGS}. Check which node creates these names."
+LAST_WARNING = f"No more warnings are shown after the first {MAX_WARNINGS}. Check which node creates these names."
 
 
 class WarnOnce:
@@ -27,7 +27,7 @@ class WarnOnce:
 
     def __init__(self, warn: Callable[[str], object], most: int = MAX_WARNINGS, last: str = LAST_WARNING) -> None:
         self._warn = warn
-        self._most = most
+        self._max_warnings = most
         self._last = last
         self._keys: set[Hashable] = set()
 
@@ -43,10 +43,10 @@ class WarnOnce:
         if not text or self.is_suppressed(key):
             return
         self._keys.add(key)
-        shown = text if len(self._keys) <= self._most else self._last
+        shown = text if len(self._keys) <= self._max_warnings else self._last
         if shown:
             (warn or self._warn)(shown)
 
     def is_suppressed(self, key: Hashable) -> bool:
         """Return whether a warning with this key is suppressed: it was already issued, or there were too many."""
-        return key in self._keys or len(self._keys) > self._most
+        return key in self._keys or len(self._keys) > self._max_warnings

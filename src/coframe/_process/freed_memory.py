@@ -40,7 +40,7 @@ def return_freed_arrays() -> None:
     By default, glibc keeps blocks of up to 32 MB once one of that size was freed. Between them are small blocks in use,
     so a process that computes with arrays of varying sizes grows for hours. Does nothing without glibc.
     """
-    if (mallopt := _function("mallopt")) is not None:
+    if (mallopt := _glibc_function("mallopt")) is not None:
         mallopt(_M_MMAP_THRESHOLD, _MIN_BYTES)
 
 
@@ -49,11 +49,11 @@ def return_freed_blocks() -> None:
 
     By default, glibc returns only memory that is freed at the end of a heap. Does nothing without glibc.
     """
-    if (malloc_trim := _function("malloc_trim")) is not None:
+    if (malloc_trim := _glibc_function("malloc_trim")) is not None:
         malloc_trim(0)
 
 
 @cache  # Each CDLL creates classes that stay in memory until the cyclic garbage collector runs.
-def _function(name: str) -> Any:
+def _glibc_function(name: str) -> Any:
     """Return a function of glibc; None without glibc."""
     return getattr(ctypes.CDLL(None), name, None) if sys.platform == "linux" else None

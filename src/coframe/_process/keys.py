@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Keys", "keys"]
 
-_NAMES = {
+_KEY_NAMES = {
     "\x1b[A": "up",
     "\x1b[B": "down",
     "\x1b[C": "right",
@@ -53,21 +53,21 @@ class _NoKeys(Keys):
 
 class _PosixKeys(Keys):
     def __init__(self, descriptor: int) -> None:
-        self._descriptor = descriptor
-        self._waiting = ""
+        self._file_descriptor = descriptor
+        self._pending_input = ""
 
     def read(self, timeout: float) -> str | None:
-        if not self._waiting:
-            if not select.select([self._descriptor], [], [], timeout)[0]:
+        if not self._pending_input:
+            if not select.select([self._file_descriptor], [], [], timeout)[0]:
                 return None
-            self._waiting = os.read(self._descriptor, 1024).decode(errors="replace")
-            if not self._waiting:  # The terminal was closed.
+            self._pending_input = os.read(self._file_descriptor, 1024).decode(errors="replace")
+            if not self._pending_input:  # The terminal was closed.
                 raise KeyboardInterrupt
-        for sequence, name in _NAMES.items():
-            if self._waiting.startswith(sequence):
-                self._waiting = self._waiting[len(sequence) :]
+        for sequence, name in _KEY_NAMES.items():
+            if self._pending_input.startswith(sequence):
+                self._pending_input = self._pending_input[len(sequence) :]
                 return name
-        key, self._waiting = self._waiting[0], self._waiting[1:]
+        key, self._pending_input = self._pending_input[0], self._pending_input[1:]
         return key
 
 
@@ -83,7 +83,7 @@ class _WindowsKeys(Keys):
         key: str = msvcrt.getwch()  # type: ignore[attr-defined,unused-ignore]
         if key in "\x00\xe0":
             key = "\xe0" + msvcrt.getwch()  # type: ignore[attr-defined,unused-ignore]
-        return _NAMES.get(key, key)
+        return _KEY_NAMES.get(key, key)
 
 
 @contextlib.contextmanager

@@ -34,8 +34,8 @@ __all__ = ["Plugin", "PluginError", "load_plugins", "plugins"]
 
 MAX_BYTES: Final = 1 << 20  # of a file with entry points
 _METADATA: Final = re.compile(r"(.+?)(?:-[^-]+)?(?:-py[\d.]+)?\.(?:dist-info|egg-info)")
-_SECTION: Final = re.compile(r"\[(.+)\]")
-_ENTRY: Final = re.compile(r"([^=#;\[]+?)\s*=\s*([\w.]+(?::[\w.]+)?)\s*(?:\[.*\])?")
+_SECTION_LINE: Final = re.compile(r"\[(.+)\]")
+_ENTRY_LINE: Final = re.compile(r"([^=#;\[]+?)\s*=\s*([\w.]+(?::[\w.]+)?)\s*(?:\[.*\])?")
 
 
 class PluginError(CoframeError, RuntimeError):
@@ -153,7 +153,7 @@ def _parse_entry_points(path: str, package: str) -> Iterator[Plugin]:
         return
     group = ""
     for line in map(str.strip, text.splitlines()):
-        if section := _SECTION.fullmatch(line):
+        if section := _SECTION_LINE.fullmatch(line):
             group = section[1].strip()
-        elif (entry := _ENTRY.fullmatch(line)) and entry[1].isprintable():
+        elif (entry := _ENTRY_LINE.fullmatch(line)) and entry[1].isprintable():
             yield Plugin(group, entry[1], entry[2], package)

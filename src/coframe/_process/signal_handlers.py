@@ -25,33 +25,33 @@ class SignalHandlers:
     """
 
     def __init__(self) -> None:
-        self._installed: dict[int, tuple[_Handler, Any]] = {}
+        self._replaced_handlers: dict[int, tuple[_Handler, Any]] = {}
 
     def install(self, number: int, handler: _Handler) -> None:
         """Handle a signal, until `restore` is called."""
-        self._installed[number] = handler, signal.signal(number, handler)
-        if self not in _in_use:
-            _in_use.append(self)
+        self._replaced_handlers[number] = handler, signal.signal(number, handler)
+        if self not in _active_handlers:
+            _active_handlers.append(self)
 
     @property
     def active(self) -> bool:
         """Whether the handlers are installed; False after `restore` and in a forked child."""
-        return bool(self._installed)
+        return bool(self._replaced_handlers)
 
     def previous(self, number: int) -> _Handler | None:
         """Return the previous handler of a signal, or None if it was not a function."""
-        _, previous = self._installed.get(number, (None, None))
+        _, previous = self._replaced_handlers.get(number, (None, None))
         return previous if callable(previous) else None
 
     def restore(self) -> None:
         """Restore the previous handlers, except where another part of the program has installed its own since."""
-        for number, (handler, previous) in self._installed.items():
+        for number, (handler, previous) in self._replaced_handlers.items():
             if signal.getsignal(number) is handler:
                 # None means that native code set it; Python cannot restore such a handler.
                 signal.signal(number, signal.SIG_DFL if previous is None else previous)
-        self._installed.clear()
-        if self in _in_use:
-            _in_use.remove(self)
+        self._replaced_handlers.clear()
+        if self in _active_handlers:
+            _active_handlers.remove(self)
 
 
 def clear_handled_interrupt() -> None:
@@ -64,11 +64,11 @@ def clear_handled_interrupt() -> None:
     exec("")  # noqa: S102 - it runs nothing
 
 
-_in_use: list[SignalHandlers] = []
+_active_handlers: list[SignalHandlers] = []
 
 
 def _restore_all() -> None:
-    for handlers in reversed(_in_use.copy()):
+    for handlers in reversed(_active_handlers.copy()):
         handlers.restore()
 
 

@@ -19,11 +19,13 @@ _MAX_SAMPLES = 20_000
 _BINS = 24
 _MIN_BINS = 8
 _MIN_PER_BIN = 4
-_MAD = 1.4826  # The standard deviation of a normal distribution is this multiple of its median absolute deviation.
+_MAD_TO_DEVIATION = (
+    1.4826  # The standard deviation of a normal distribution is this multiple of its median absolute deviation.
+)
 _MIN_SLOPE_RATIO = 6.0  # times the standard error of the slope
 _MAX_CURVATURE = 0.2  # of the whole change; a step of the clock is not a drift
 _MIN_CHANGE = MICROSECOND
-_MILLION = 1e6
+_PPM = 1e6
 
 
 class ClockOffset(NamedTuple):
@@ -75,12 +77,12 @@ def clock_offset(lags: NDArray[np.int64], arrived: NDArray[np.int64]) -> ClockOf
     y, x = (lags - middle).astype(np.float64), (arrived - arrived[0]).astype(np.float64)
     slope = _slope(x, y)
     rest = y - slope * (x - np.median(x))
-    spread = _MAD * float(np.median(np.abs(rest - np.median(rest))))
+    spread = _MAD_TO_DEVIATION * float(np.median(np.abs(rest - np.median(rest))))
     change = abs(slope) * float(np.ptp(x)) if len(x) else 0.0
     if change < max(spread, _MIN_CHANGE):
-        spread = _MAD * float(np.median(np.abs(y - np.median(y))))
+        spread = _MAD_TO_DEVIATION * float(np.median(np.abs(y - np.median(y))))
         return ClockOffset(float(middle), spread, None)
-    return ClockOffset(float(middle), spread, slope * _MILLION)
+    return ClockOffset(float(middle), spread, slope * _PPM)
 
 
 def _slope(x: NDArray[np.float64], y: NDArray[np.float64]) -> float:

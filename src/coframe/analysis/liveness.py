@@ -169,9 +169,11 @@ class LivenessTracker:
         self._clock = clock
         self._frames: Sequence[FrameInfo] = ()
         self._newest: NDArray[np.int64] = np.zeros(0, np.int64)
-        self._received: NDArray[np.int64] = np.zeros(0, np.int64)
-        self._limits: NDArray[np.float64] = np.zeros(0)  # inf: never stale
-        self._known: NDArray[np.bool_] = np.zeros(0, bool)  # whether the limit depends on the period of the edge
+        self._received_at: NDArray[np.int64] = np.zeros(0, np.int64)
+        self._stale_limits: NDArray[np.float64] = np.zeros(0)  # inf: never stale
+        self._has_known_period: NDArray[np.bool_] = np.zeros(
+            0, bool
+        )  # whether the limit depends on the period of the edge
         self._next_check = np.inf
 
     def update(self, frames: Sequence[FrameInfo]) -> None:
@@ -187,12 +189,22 @@ class LivenessTracker:
         known = np.zeros(count, bool)
         kept = min(count, before)
         same = np.flatnonzero(newest[:kept] == self._newest[:kept])
-        for column, last in ((received, self._received), (limits, self._limits), (known, self._known)):
+        for column, last in (
+            (received, self._received_at),
+            (limits, self._stale_limits),
+            (known, self._has_known_period),
+        ):
             column[same] = last[same]
         never = np.fromiter((frame.static or not frame.parent for frame in frames), bool, count)
         limits[never] = np.inf
         limits[~never & np.isinf(limits)] = STALE_AFTER  # these were static, or had no parent, at the last update
-        self._frames, self._newest, self._received, self._limits, self._known = frames, newest, received, limits, known
+        self._frames, self._newest, self._received_at, self._stale_limits, self._has_known_period = (
+            frames,
+            newest,
+            received,
+            limits,
+            known,
+        )
         self._next_check = float((received + limits).min()) if count else np.inf
 
     def any_stale(self) -> bool:
@@ -201,8 +213,8 @@ class LivenessTracker:
 
     def silences(self) -> NDArray[np.int64]:
         """Return how long each frame has received nothing, (N,) nanoseconds; 0 for static frames and roots."""
-        silences = self._clock() - self._received
-        silences[np.isinf(self._limits)] = 0
+        silences = self._clock() - self._received_at
+        silences[np.isinf(self._stale_limits)] = 0
         return silences
 
     def stale(self) -> NDArray[np.bool_]:
@@ -210,15 +222,15 @@ class LivenessTracker:
         now = self._clock()
         if now <= self._next_check:
             return np.zeros(len(self._frames), bool)
-        late = now - self._received > self._limits
+        late = now - self._received_at > self._stale_limits
         # Periods are read only for the few edges that received nothing for longer than STALE_AFTER.
-        unknown = np.flatnonzero(late & ~self._known).tolist()
+        unknown = np.flatnonzero(late & ~self._has_known_period).tolist()
         if unknown:
             for row in unknown:
                 frame = self._frames[row]
                 edge = (frame.parent, frame.name, frame.oldest, frame.newest, frame.samples)
-                self._limits[row] = stale_limit(buffered_period(self._buffer, *edge))
-            self._known[unknown] = True
-            self._next_check = float((self._received + self._limits).min())
-            late = now - self._received > self._limits
+                self._stale_limits[row] = stale_limit(buffered_period(self._buffer, *edge))
+            self._has_known_period[unknown] = True
+            self._next_check = float((self._received_at + self._stale_limits).min())
+            late = now - self._received_at > self._stale_limits
         return late

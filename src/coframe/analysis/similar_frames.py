@@ -22,7 +22,7 @@ MAX_COMPARED_FRAMES = 1_000  # one takes microseconds
 _MAX_COMPARED_LENGTH = 200
 _MIN_ABBREVIATION = 3  # letters
 # Words without a meaning of their own: `lidar`, `lidar_link` and `base_lidar` may be the same frame.
-_GENERIC = {"link", "frame", "base"}
+_GENERIC_WORDS = {"link", "frame", "base"}
 
 
 def similar_frames(name: str, known: Iterable[str], *, most: int = 1) -> list[str]:
@@ -53,12 +53,12 @@ def is_misspelling(name: str, other: str) -> bool:
     words, others = _words(name), _words(other)
     left = [word for word in words if word not in others]
     right = [word for word in others if word not in words]
-    if not left or not right or _GENERIC.issuperset(left + right):
-        return _GENERIC.issuperset(left + right)
-    return _look_alike("".join(left), "".join(right)) or "".join(words) == "".join(others)
+    if not left or not right or _GENERIC_WORDS.issuperset(left + right):
+        return _GENERIC_WORDS.issuperset(left + right)
+    return _are_similar_words("".join(left), "".join(right)) or "".join(words) == "".join(others)
 
 
-def _look_alike(a: str, b: str) -> bool:
+def _are_similar_words(a: str, b: str) -> bool:
     """Return whether two words differ in few letters, or one is an abbreviation of the other."""
     short, long = sorted((a, b), key=len)
     if len(short) < _MIN_ABBREVIATION:

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 __all__ = ["FrameTrees"]
 
-_NONE = -1
+_NO_PARENT = -1
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,22 +60,22 @@ class FrameTrees:
         """
         names = tuple(dict.fromkeys([*frames, *parents, *(parent for parent in parents.values() if parent)]))
         index = {name: number for number, name in enumerate(names)}
-        above = [index[parent] if (parent := parents.get(name, "")) else _NONE for name in names]
+        above = [index[parent] if (parent := parents.get(name, "")) else _NO_PARENT for name in names]
         children: list[list[int]] = [[] for _ in names]
         for number, parent_number in enumerate(above):
-            if parent_number != _NONE:
+            if parent_number != _NO_PARENT:
                 children[parent_number].append(number)
-        components = [_NONE] * len(names)
+        components = [_NO_PARENT] * len(names)
         depths = [0] * len(names)
         order: list[int] = []
         roots: list[int] = []
         for number, parent_number in enumerate(above):
-            if parent_number == _NONE:
+            if parent_number == _NO_PARENT:
                 _add_tree(number, len(roots), children, components, depths, order)
                 roots.append(number)
         proper = len(roots)
         for number in range(len(names)):
-            if components[number] == _NONE:
+            if components[number] == _NO_PARENT:
                 root = _first_of_loop(number, above, names)
                 _add_tree(root, len(roots), children, components, depths, order)
                 roots.append(root)
@@ -132,11 +132,11 @@ class FrameTrees:
         return [self.names[number] for number in (*up[: top + 1], *reversed(down[: below[up[top]]]))]
 
     def _path(self, frame: int) -> list[int]:
-        passed: dict[int, None] = {}
-        while frame != _NONE and frame not in passed:
-            passed[frame] = None
+        visited: dict[int, None] = {}
+        while frame != _NO_PARENT and frame not in visited:
+            visited[frame] = None
             frame = self.parents[frame]
-        return list(passed)
+        return list(visited)
 
 
 def _add_tree(
@@ -158,9 +158,9 @@ def _add_tree(
 
 def _first_of_loop(frame: int, parents: list[int], names: tuple[str, ...]) -> int:
     """Return the alphabetically first frame of the loop above a frame."""
-    passed: dict[int, None] = {}
-    while frame not in passed:
-        passed[frame] = None
+    visited: dict[int, None] = {}
+    while frame not in visited:
+        visited[frame] = None
         frame = parents[frame]
-    above = list(passed)
+    above = list(visited)
     return min(above[above.index(frame) :], key=lambda number: names[number])

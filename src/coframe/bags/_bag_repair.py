@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 __all__ = ["RepairReport", "repair"]
 
-_PLURAL = re.compile(r"\b(messages|transforms|names)\b")  # nouns that are counted in messages
+_PLURAL_NOUNS = re.compile(r"\b(messages|transforms|names)\b")  # nouns that are counted in messages
 _PROGRESS_STEP = 1000  # messages between two calls of the progress function
 _STATIC_QOS = OfferedQos(1, transient_local=True)
 
@@ -99,7 +99,7 @@ def repair(
     robot = _Robot(absolute(tf_topic), absolute(tf_static_topic))
     rename = _Renaming(prefix, keep, robot)
     with open_bag(source, progress=partial(progress, "reading")) as recording:
-        added = [] if statics is None else _statics_of(statics)
+        added = [] if statics is None else _read_statics(statics)
         problems = recording.problems
         if problems and not any(topic.messages for topic in recording.topics.values()):
             raise RecordingError(f"{recording.path} cannot be repaired, because no message can be read: {problems[0]}")
@@ -128,21 +128,25 @@ class _Renaming:
     """Maps a frame name to its new name: without leading slashes, and with the prefix if there is one."""
 
     def __init__(self, prefix: str, keep: Iterable[str], robot: _Robot) -> None:
-        self._renamed = renaming(prefix, keep)
+        self._rename_frame = renaming(prefix, keep)
         self._robot = robot
         self.change = f"given the prefix {prefix!r}" if prefix else "stripped of leading slashes"
 
     def on(self, topic: str) -> _Renaming:
         """Return the mapping for the messages on a topic; only topics of the robot get the prefix."""
-        return self if self._renamed is None or is_robot_topic(topic, *self._robot) else _Renaming("", (), self._robot)
+        return (
+            self
+            if self._rename_frame is None or is_robot_topic(topic, *self._robot)
+            else _Renaming("", (), self._robot)
+        )
 
     @property
     def has_prefix(self) -> bool:
-        return self._renamed is not None
+        return self._rename_frame is not None
 
     def __call__(self, name: str) -> str:
         bare = name.lstrip("/")
-        return self._renamed(bare) if bare and self._renamed is not None else bare
+        return self._rename_frame(bare) if bare and self._rename_frame is not None else bare
 
 
 class _Route(NamedTuple):
@@ -172,8 +176,8 @@ class _Repair:
         self._robot = robot
         self._rename = rename
         self._routes: dict[Channel, _Route | None] = {}
-        self._counts: Counter[tuple[str, str]] = Counter()  # keys: the text before and after the count
-        self._copied = 0
+        self._change_counts: Counter[tuple[str, str]] = Counter()  # keys: the text before and after the count
+        self._copied_messages = 0
         self._moving_edges = {
             name: {edge.child for edge in buffer.edges() if edge.parent and not edge.static}
             for name, buffer in recording.buffers.items()
@@ -188,23 +192,26 @@ class _Repair:
                 progress(number, total)
             route = self._route(channel)
             if route is None:
-                self._count(channel, "messages skipped: their type of ROS 1 cannot be converted to ROS 2")
+                self._count(channel, "messages skipped, because their ROS 1 type cannot be converted to ROS 2")
             elif not 0 <= received < 1 << 63:
-                self._count(channel, "messages skipped: invalid receive time")
+                self._count(channel, "messages skipped, because their receive time is not valid")
             elif (message := self._repair_message(channel, route, data)) is not None:
                 self._writer.write(route.topic, message, received)
-                self._copied += 1
+                self._copied_messages += 1
         progress(total, total)
 
     def changes(self) -> list[str]:
         """Return the differences from the original, one message each."""
         topics = len({channel.topic for channel, route in self._routes.items() if route is not None})
-        amounts = f"{count(self._copied, 'message')} on {count(topics, 'topic')}"
+        amounts = f"{count(self._copied_messages, 'message')} on {count(topics, 'topic')}"
         copied = f"{amounts} copied, with an index and metadata.yaml"
-        return [copied, *(f"{topic}{_number_and_noun(what, number)}" for (topic, what), number in self._counts.items())]
+        return [
+            copied,
+            *(f"{topic}{_count_text(what, number)}" for (topic, what), number in self._change_counts.items()),
+        ]
 
     def _count(self, channel: Channel, what: str, number: int = 1) -> None:
-        self._counts[f"{channel.topic}: ", what] += number
+        self._change_counts[f"{channel.topic}: ", what] += number
 
     def _route(self, channel: Channel) -> _Route | None:
         if channel not in self._routes:
@@ -246,25 +253,25 @@ class _Repair:
             self._count(channel, "damaged messages skipped")
             return None
         if channel.encoding == "ros1":
-            self._counts["", "messages converted from ROS 1 to ROS 2"] += 1
+            self._change_counts["", "messages converted from ROS 1 to ROS 2"] += 1
         return message
 
     def _correct_message(self, channel: Channel, route: _Route, message: bytes) -> bytes:
         """Return a message of ROS 2 with new frame names and without the transforms that tf2 rejects."""
         if route.transforms:
-            message = self._without_rejected(channel, message)
+            message = self._remove_rejected(channel, message)
         if route.names is not None and (route.rename.has_prefix or b"/" in message):
             message, changed = route.names.rename(message, route.rename)
             if changed:
                 self._count(channel, f"frame names {route.rename.change}", changed)
         return message
 
-    def _without_rejected(self, channel: Channel, data: bytes) -> bytes:
+    def _remove_rejected(self, channel: Channel, data: bytes) -> bytes:
         """Return a TFMessage without transforms that tf2 rejects, and without static transforms of moving frames."""
         message = deserialize(data, find(TF_MESSAGE))
         good = [transform for transform in message.transforms if _is_accepted(transform)]
         if rejected := len(message.transforms) - len(good):
-            self._count(channel, "invalid transforms removed, which tf2 rejects", rejected)
+            self._count(channel, "transforms removed that tf2 rejects as invalid", rejected)
         if is_static(channel.topic):
             moving = self._moving_edges.get(namespace_of(channel.topic), set())
             fixed = [transform for transform in good if transform.child_frame_id.lstrip("/") not in moving]
@@ -275,7 +282,7 @@ class _Repair:
 
     def _write_statics_first(self, added: list[TransformStamped]) -> None:
         """Write the static transforms that were recorded late and those to be added, at the start of the recording."""
-        for channel, transforms in self._late_statics().items():
+        for channel, transforms in self._find_late_statics().items():
             route = self._route(channel)
             if route is not None:
                 self._write_statics(channel, route, transforms, "static transforms moved to the beginning")
@@ -289,7 +296,9 @@ class _Repair:
                 self._write_statics(channel, route, new, "static transforms added")
         if len(new) < len(added):
             skipped = len(added) - len(new)
-            self._counts["", "static transforms not added because the recording contains their frames"] += skipped
+            self._change_counts["", "static transforms not added because the recording contains their frames"] += (
+                skipped
+            )
 
     def _known_child_frames(self) -> set[str]:
         """Return the new names of the child frames in the namespaces of the robot's topics."""
@@ -302,7 +311,7 @@ class _Repair:
         self._writer.write(route.topic, message, self._recording.received_start, publisher=what)
         self._count(channel, what, len(transforms))
 
-    def _late_statics(self) -> dict[Channel, list[TransformStamped]]:
+    def _find_late_statics(self) -> dict[Channel, list[TransformStamped]]:
         """Return the first value of each static transform that is not at the start of the recording, by channel."""
         found: dict[str, tuple[Channel, dict[str, TransformStamped]]] = {}
         early: set[tuple[str, str]] = set()
@@ -320,7 +329,7 @@ class _Repair:
         return {channel: list(known.values()) for channel, known in found.values() if known}
 
 
-def _statics_of(path: Location) -> list[TransformStamped]:
+def _read_statics(path: Location) -> list[TransformStamped]:
     """Return the static transforms of another recording.
 
     Raises:
@@ -334,10 +343,10 @@ def _statics_of(path: Location) -> list[TransformStamped]:
     return [to_transform_stamped(parent, child, transform, 0) for parent, child, transform in transforms]
 
 
-def _number_and_noun(what: str, number: int) -> str:
+def _count_text(what: str, number: int) -> str:
     """Return a number with its noun, in the singular if the number is 1."""
     text = f"{number} {what}"
-    return _PLURAL.sub(lambda match: match[0].removesuffix("s"), text, count=1) if number == 1 else text
+    return _PLURAL_NOUNS.sub(lambda match: match[0].removesuffix("s"), text, count=1) if number == 1 else text
 
 
 def _is_accepted(transform: TransformStamped) -> bool:

@@ -47,14 +47,14 @@ class _Pool:
     """Worker processes, started on demand. Thread-safe."""
 
     def __init__(self) -> None:
-        self._idle: queue.SimpleQueue[_Worker] = queue.SimpleQueue()
+        self._idle_workers: queue.SimpleQueue[_Worker] = queue.SimpleQueue()
         self._lock = threading.Lock()
-        self._all: list[_Worker] = []
+        self._workers: list[_Worker] = []
         self._closed = False
 
     def run(self, job: tuple[Any, ...]) -> Any:
         for _ in range(2):
-            worker = self._take()
+            worker = self._take_idle_worker()
             if worker is None:
                 return None
             try:
@@ -62,7 +62,7 @@ class _Pool:
             except (OSError, EOFError, pickle.UnpicklingError):
                 worker.close()
                 continue
-            self._idle.put(worker)
+            self._idle_workers.put(worker)
             return result
         return None
 
@@ -70,19 +70,19 @@ class _Pool:
         """End all processes, including busy ones."""
         with self._lock:
             self._closed = True
-            for worker in self._all:
+            for worker in self._workers:
                 worker.close()
 
-    def _take(self) -> _Worker | None:
+    def _take_idle_worker(self) -> _Worker | None:
         try:
-            return self._idle.get_nowait()
+            return self._idle_workers.get_nowait()
         except queue.Empty:
             pass
         with self._lock:
             if self._closed:
                 return None
             worker = _Worker()
-            self._all.append(worker)
+            self._workers.append(worker)
             return worker
 
 

@@ -34,7 +34,7 @@ __all__ = ["CLOUD_FORMATS", "write_clouds"]
 _FLOAT64_ADVICE = "float64=True keeps them, and so do .ply, .npz and .npy files."
 CLOUD_FORMATS = ("ply", "pcd", "npz", "npy", "mcap")
 _MAX_DIGITS = 20  # space in the header for the count, which is known only at the end
-_NPY_HEAD = 12  # bytes before the text of NumPy's header
+_NPY_PREAMBLE_BYTES = 12  # bytes before the text of NumPy's header
 
 
 def write_clouds(
@@ -76,7 +76,7 @@ def write_clouds(
     kind = (format_ or "ply") if is_folder else suffix
     if is_folder and suffix and format_ is None and not path.is_dir():
         raise ValueError(
-            f"No format named {suffix!r}. Known suffixes of files: {', '.join(CLOUD_FORMATS)}. A folder has no suffix."
+            f"No format named {suffix!r}. Known suffixes: {', '.join(CLOUD_FORMATS)}. A folder has no suffix."
         )
     if kind not in CLOUD_FORMATS or (is_folder and kind == "mcap"):
         raise ValueError(f"No format named {kind!r} for a folder. Known formats: {', '.join(CLOUD_FORMATS[:-1])}.")
@@ -100,24 +100,24 @@ class _CloudSource:
 
     def __iter__(self) -> Any:
         for cloud in self.clouds:
-            yield _with_marked_times(cloud)
+            yield _mark_times(cloud)
             self._progress(self.clouds.messages + sum(self.clouds.skipped.values()))
 
     def accumulated(self, voxel: float) -> Cloud | None:
         cloud = self.clouds.accumulated(voxel)
-        return None if cloud is None else _with_marked_times(cloud)
+        return None if cloud is None else _mark_times(cloud)
 
-    def check_some(self) -> None:
+    def check_not_empty(self) -> None:
         """Raise an error if no message could be transformed."""
         if self.clouds.messages == 0:
-            reasons = "; ".join(self.clouds.skipped) or "there is no message in this time range"
+            reasons = "; ".join(self.clouds.skipped) or "the time range contains no messages"
             raise RecordingError(
                 f"No message on {self.clouds.topic} can be transformed into {self.clouds.frame}: {reasons}",
                 hint=self.clouds.hint or "coframe.bags.summarize() shows which sensor data can be transformed.",
             )
 
 
-def _with_marked_times(cloud: Cloud) -> Cloud:
+def _mark_times(cloud: Cloud) -> Cloud:
     """Rename the time field of deskewed points, so that no reader deskews them again."""
     names = cloud.points.dtype.names or ()
     if cloud.used_times not in names:
@@ -136,7 +136,7 @@ def _write_folder(source: _CloudSource, folder: Path, kind: str, voxel: float | 
         one = cloud if voxel is None else cloud._replace(points=thinned(cloud.points, voxel))
         with complete_or_absent(folder / f"{name}_{cloud.stamp}.{kind}") as part, part.open("wb") as stream:
             written += _fill(_WRITERS[kind](stream, xyz), [one])
-    source.check_some()
+    source.check_not_empty()
     return written
 
 
@@ -149,7 +149,7 @@ def _write_one(path: Path, kind: str, clouds: Iterable[Cloud], source: _CloudSou
         else:
             with part.open("wb") as stream:
                 written = _fill(_WRITERS[kind](stream, xyz), clouds)
-        source.check_some()
+        source.check_not_empty()
     return written
 
 
@@ -174,7 +174,7 @@ class _Rows:
 
     def __init__(self, stream: BinaryIO, xyz: str = "<f8") -> None:
         self._stream = stream
-        self._xyz = xyz
+        self._coordinate_type = xyz
         self.dtype: np.dtype[Any] | None = None
         self.count = 0
 
@@ -224,7 +224,7 @@ class _Ply(_Rows):
         digits = str(count)
         lines = ["ply", "format binary_little_endian 1.0", f"comment {'.' * (_MAX_DIGITS - len(digits))}"]
         lines.append(f"element vertex {digits}")
-        lines += [f"property {kinds[_kind(dtype, name)]} {name}" for name in dtype.names or ()]
+        lines += [f"property {kinds[_type_letters(dtype, name)]} {name}" for name in dtype.names or ()]
         return "\n".join([*lines, "end_header", ""]).encode("ascii", "replace")
 
 
@@ -233,12 +233,12 @@ class _Pcd(_Rows):
 
     def rows(self, points: NDArray[Any]) -> NDArray[Any]:
         """Return the points with x, y, z as float32 or float64."""
-        return _cast_coordinates(points, {}, self._xyz)
+        return _cast_coordinates(points, {}, self._coordinate_type)
 
     def header(self, dtype: np.dtype[Any], count: int) -> bytes:
         """Return the header of version 0.7; a comment pads it to a constant length."""
         names = dtype.names or ()
-        kinds = [_kind(dtype, name) for name in names]
+        kinds = [_type_letters(dtype, name) for name in names]
         digits = str(count)
         lines = [
             f"# .PCD v0.7 {'.' * (2 * (_MAX_DIGITS - len(digits)))}",
@@ -263,8 +263,8 @@ class _Npy(_Rows):
     def header(self, dtype: np.dtype[Any], count: int) -> bytes:
         """Return the header of version 2.0, padded with spaces to a constant length."""
         text = repr({"descr": dtype.descr, "fortran_order": False, "shape": (count,)})
-        longest = _NPY_HEAD + len(text) - len(str(count)) + _MAX_DIGITS + 1
-        size = -(-longest // 64) * 64 - _NPY_HEAD  # the points begin at a multiple of 64
+        longest = _NPY_PREAMBLE_BYTES + len(text) - len(str(count)) + _MAX_DIGITS + 1
+        size = -(-longest // 64) * 64 - _NPY_PREAMBLE_BYTES  # the points begin at a multiple of 64
         return b"\x93NUMPY\x02\x00" + size.to_bytes(4, "little") + f"{text:<{size - 1}}\n".encode("ascii", "replace")
 
 
@@ -274,7 +274,7 @@ class _Npz:
     All points are first written to a temporary file, so that only one field is in memory at a time.
     """
 
-    def __init__(self, stream: BinaryIO, _xyz: str = "<f8") -> None:
+    def __init__(self, stream: BinaryIO, _coordinate_type: str = "<f8") -> None:
         self._stream = stream
         self._rows = tempfile.TemporaryFile()  # noqa: SIM115 - closed by close()
         self._npy = _Npy(self._rows)
@@ -305,7 +305,7 @@ class _BagTopic:
 
     def __init__(self, writer: McapWriter, topic: str, xyz: str) -> None:
         self._writer = writer
-        self._xyz = xyz
+        self._coordinate_type = xyz
         self._channel = writer.add_channel(
             topic,
             POINT_CLOUD,
@@ -317,7 +317,7 @@ class _BagTopic:
 
     def add(self, cloud: Cloud) -> None:
         """Write one message, with its stamp as the receive time, in its own chunk because clouds are large."""
-        self._writer.write(self._channel, serialize(message_of(cloud, self._xyz)), cloud.stamp, cloud.stamp)
+        self._writer.write(self._channel, serialize(message_of(cloud, self._coordinate_type)), cloud.stamp, cloud.stamp)
         self._writer.flush()
 
     def finish(self) -> None:
@@ -347,7 +347,7 @@ def message_of(cloud: Cloud, xyz: str = "<f4") -> Any:
     return message
 
 
-def _kind(dtype: np.dtype[Any], name: str) -> str:
+def _type_letters(dtype: np.dtype[Any], name: str) -> str:
     return str(dtype[name].str[1:])
 
 
@@ -369,7 +369,12 @@ def _cast(points: NDArray[Any], kinds: dict[str, str], *, xyz: str = "<f8") -> N
         [
             ("".join(c if c.isascii() and c.isprintable() and c != " " else "_" for c in name), kind)
             for name, kind in (
-                (name, xyz if name in {"x", "y", "z"} else kinds.get(_kind(points.dtype, name), points.dtype[name].str))
+                (
+                    name,
+                    xyz
+                    if name in {"x", "y", "z"}
+                    else kinds.get(_type_letters(points.dtype, name), points.dtype[name].str),
+                )
                 for name in points.dtype.names or ()
             )
         ]

@@ -64,7 +64,7 @@ class Cloud(NamedTuple):
     used_times: str | None = None
 
 
-class _Measured(NamedTuple):
+class _MeasuredPoints(NamedTuple):
     """The points of one message in the frame of the sensor, with the time of each point."""
 
     points: NDArray[Any]
@@ -149,23 +149,23 @@ class Clouds:
                 hint=f"Topics with points: {', '.join(others) or 'none'}.",
             )
         self.frame = frame
-        self._start, self._stop, self._at = start, stop, at
+        self._start, self._stop, self._only_at = start, stop, at
         self._deskews = deskew == "auto"
         self._time_field, self._time_unit = _field_and_unit(point_times)
         self._fixed = fixed
         self.fixed_given = fixed is not None
         self._period = round(usual_period(np.sort(self._stamps)))
-        self._still: dict[str, str | None] = {}
+        self._still_frames: dict[str, str | None] = {}
         self._fields = None if fields is None else [name for name in fields if name not in {"x", "y", "z"}]
         if self._type == LASER_SCAN and (unknown := set(self._fields or ()) - _SCAN_FIELDS):
             known = ", ".join(sorted(_SCAN_FIELDS))
             raise ValueError(f"Scans have no field named {', '.join(sorted(unknown))}. Known fields: {known}.")
         self._max_gap = gap_limit(max_gap, on_gap)
         self._on_gap = on_gap
-        self._has_validity = validity
-        self._reset()
+        self._with_validity = validity
+        self._reset_counts()
 
-    def _reset(self) -> None:
+    def _reset_counts(self) -> None:
         self.messages = self.points = self.deskewed = 0
         self.skipped: dict[str, int] = {}
         self.points_skipped: dict[str, int] = {}
@@ -175,13 +175,13 @@ class Clouds:
         self.doubts: dict[str, int] = {}
         self.gaps: dict[str, int] = {}
         self.hint = ""
-        self._reasons: dict[tuple[Any, ...], str] = {}
-        self._unknown_times: dict[str | None, str] = {}  # the first message stands for all
+        self._known_reasons: dict[tuple[Any, ...], str] = {}
+        self._unknown_time_reasons: dict[str | None, str] = {}  # the first message stands for all
 
     @property
     def total(self) -> int:
         """Number of messages to read."""
-        if self._at is not None:
+        if self._only_at is not None:
             return 1
         chosen = np.ones(len(self._stamps), dtype=bool)
         if self._start is not None:
@@ -191,8 +191,8 @@ class Clouds:
         return int(np.count_nonzero(chosen))
 
     def __iter__(self) -> Iterator[Cloud]:
-        self._reset()
-        for recorded in self._recorded():
+        self._reset_counts()
+        for recorded in self._read_messages():
             cloud = self._cloud(recorded)
             if cloud is not None:
                 self.messages += 1
@@ -222,10 +222,10 @@ class Clouds:
                 pending, least = 0, max(_MIN_PENDING, len(kept[0]))
         return None if last is None else last._replace(points=thinned(_concatenate(kept), voxel))
 
-    def _recorded(self) -> Iterator[RecordedMessage]:
-        if self._at is None:
+    def _read_messages(self) -> Iterator[RecordedMessage]:
+        if self._only_at is None:
             yield from self._recording.messages(self.topic, self._start, self._stop)
-        elif (one := self._recording.message_at(self.topic, self._at)) is not None:
+        elif (one := self._recording.message_at(self.topic, self._only_at)) is not None:
             yield one
 
     def _cloud(self, recorded: RecordedMessage) -> Cloud | None:
@@ -237,8 +237,8 @@ class Clouds:
             finite = np.isfinite(points["x"]) & np.isfinite(points["y"]) & np.isfinite(points["z"])
             self._count(self.points_skipped, "have no finite coordinates", np.count_nonzero(~finite))
             points, times = points[finite], times[finite] if times is not None else None
-            deskewed = self._move(points, times, frame, recorded.stamp)
-            gaps = self._gaps_of(times, frame, recorded.stamp)
+            deskewed = self._transform_points(points, times, frame, recorded.stamp)
+            gaps = self._find_gaps(times, frame, recorded.stamp)
         except TransformException as error:
             self.hint = self.hint or error.hint
             self._count(self.skipped, self._reason(error))
@@ -248,22 +248,22 @@ class Clouds:
             transformed = np.isfinite(points["x"])
             self._count(self.points_skipped, "have no transform at their own time", np.count_nonzero(~transformed))
             if self._max_gap is not None:
-                transformed = self._without_gaps(points, transformed, gaps, frame, recorded.stamp)
-            if self._has_validity:
+                transformed = self._apply_max_gap(points, transformed, gaps, frame, recorded.stamp)
+            if self._with_validity:
                 points = _structured_array(
                     {**{name: points[name] for name in points.dtype.names or ()}, "gap_ns": gaps}
                 )
             if deskewed:
-                self._note_times(measured.read)
+                self._count_times(measured.read)
             read = measured.read if deskewed else None
             used = measured.same_times if read is None else read.field
             return Cloud(recorded.stamp, self.frame, points[transformed], deskewed, used)
         return None
 
-    def _move(self, points: NDArray[Any], times: NDArray[np.int64] | None, frame: str, stamp: int) -> bool:
+    def _transform_points(self, points: NDArray[Any], times: NDArray[np.int64] | None, frame: str, stamp: int) -> bool:
         """Transform points in place; return whether each was transformed at its own time."""
         buffer = self._recording.buffer
-        fixed = self._fixed_for(frame) if times is not None and points.size else None
+        fixed = self._choose_fixed_frame(frame) if times is not None and points.size else None
         if fixed is None or times is None:
             if frame != self.frame:
                 transform_cloud(points, buffer, self.frame, source=frame, stamp=stamp, in_place=True)
@@ -278,14 +278,14 @@ class Clouds:
         self._count(self.fixed_frames, fixed)
         return True
 
-    def _gaps_of(self, times: NDArray[np.int64] | None, frame: str, stamp: int) -> NDArray[np.int64]:
+    def _find_gaps(self, times: NDArray[np.int64] | None, frame: str, stamp: int) -> NDArray[np.int64]:
         """Return over which gap the pose of each point is interpolated in nanoseconds, or one value for all."""
-        buffer, fixed = self._recording.buffer, self._fixed_for(frame) or self.frame
+        buffer, fixed = self._recording.buffer, self._choose_fixed_frame(frame) or self.frame
         known = np.array([stamp]) if times is None else np.where(times == NO_TIME, stamp, times)
         legs = [(fixed, frame, known), (self.frame, fixed, np.array([stamp]))]
         legs = [leg for leg in legs if leg[0] != leg[1]]
         gaps = np.zeros(1, dtype=np.int64)
-        if self._max_gap is not None or self._has_validity:
+        if self._max_gap is not None or self._with_validity:
             for target, source, stamps in legs:
                 gaps = np.maximum(gaps, buffer.validity(target, source, stamps).gaps)
         if self._max_gap is None:
@@ -295,7 +295,7 @@ class Clouds:
                     break
         return gaps
 
-    def _without_gaps(
+    def _apply_max_gap(
         self,
         points: NDArray[Any],
         transformed: NDArray[np.bool_],
@@ -315,35 +315,35 @@ class Clouds:
                 requested=stamp,
                 hint="coframe doctor lists the gaps.",
             )
-        self._count(self.points_skipped, "lie in a longer gap than permitted", np.count_nonzero(inside))
+        self._count(self.points_skipped, "lie in a gap that is longer than max_gap", np.count_nonzero(inside))
         if self._on_gap == "omit":
             return transformed & ~inside
         for name in "xyz":
             points[name][inside] = np.nan
         return transformed
 
-    def _fixed_for(self, frame: str) -> str | None:
+    def _choose_fixed_frame(self, frame: str) -> str | None:
         """Return the frame that does not move during a sweep of this sensor; None if nothing moves."""
         if self._fixed is not None:
             return self._fixed
-        if frame not in self._still:
+        if frame not in self._still_frames:
             stamps = self._stamps[:: -(-len(self._stamps) // _MAX_COMPARED_STAMPS)]
-            self._still[frame] = still_frame(self._recording.buffer, self.frame, frame, stamps)
-        return self._still[frame]
+            self._still_frames[frame] = still_frame(self._recording.buffer, self.frame, frame, stamps)
+        return self._still_frames[frame]
 
-    def _note_times(self, times: PointTimes | None) -> None:
+    def _count_times(self, times: PointTimes | None) -> None:
         self.deskewed += 1
         if times is None:
             return
         reference = "as stamps" if times.absolute else "relative to the message's stamp"
-        guessed = ", as the length of the sweep shows" if times.found else ""
+        guessed = ", inferred from the length of the sweep" if times.found else ""
         self._count(self.times_read, f"the field {times.field}, interpreted in {times.unit} {reference}{guessed}")
         if implausible(times, self._period):
             # One sentence is enough: the sweeps of most messages differ a little.
             first = next(iter(self.doubts), implausible(times, self._period))
             self._count(self.doubts, first)
 
-    def _points(self, message: Any, stamp: int) -> _Measured:
+    def _points(self, message: Any, stamp: int) -> _MeasuredPoints:
         names = [field.name for field in message.fields if field.count <= 1 and field.name not in {"x", "y", "z"}]
         if self._fields is not None:
             times_of = TIME_FIELDS if self._time_field is None else (self._time_field,)
@@ -354,7 +354,7 @@ class Clouds:
         times, same = self._times(points, stamp) if self._deskews else (None, None)
         if self._fields is not None and names != self._fields:
             points = _structured_array({name: points[name] for name in ("x", "y", "z", *self._fields)})
-        return _Measured(points, None if times is None else times.times, times, same)
+        return _MeasuredPoints(points, None if times is None else times.times, times, same)
 
     def _times(self, points: NDArray[Any], stamp: int) -> tuple[PointTimes | None, str | None]:
         """Return the times of the points, and the name of their field if all of them are the same."""
@@ -365,24 +365,24 @@ class Clouds:
         try:
             times = times_in(points, stamp, self._time_field, self._time_unit, period=self._period)
         except UnknownTimesError as error:
-            self._count(self.not_deskewed, self._unknown_times.setdefault(self._time_field, str(error)))
+            self._count(self.not_deskewed, self._unknown_time_reasons.setdefault(self._time_field, str(error)))
             return None, None
         return times, (self._time_field or field) if times is None else None
 
-    def _scan(self, message: Any) -> _Measured:
+    def _scan(self, message: Any) -> _MeasuredPoints:
         hits = project_scan(message)
         columns: dict[str, NDArray[Any]] = dict(zip("xyz", hits.points.T, strict=True))
         others = {"intensity": hits.intensities, "index": hits.beams}
         columns |= {n: v for n, v in others.items() if v is not None and (self._fields is None or n in self._fields)}
         self._count(self.points_skipped, "are out of range", len(message.ranges) - len(hits.points))
-        return _Measured(
+        return _MeasuredPoints(
             _structured_array(columns), hits.times if self._deskews and message.time_increment != 0 else None
         )
 
     def _reason(self, error: TransformException) -> str:
         """Return the first error message that differs from this one only in its times."""
         key = (type(error), error.target, error.source, error.edge)
-        return self._reasons.setdefault(key, f"{type(error).__name__}: {error}")
+        return self._known_reasons.setdefault(key, f"{type(error).__name__}: {error}")
 
     @staticmethod
     def _count(counts: dict[str, int], reason: str, times: int | np.integer[Any] = 1) -> None:
@@ -394,7 +394,10 @@ def _field_and_unit(text: str | None) -> tuple[str | None, str | None]:
     """Split ``FIELD:UNIT`` or ``FIELD``."""
     field, colon, unit = (text or "").partition(":")
     if (text is not None and not field) or (colon and unit not in UNITS):
-        raise ValueError(f"{text!r} is not a field with a unit: write for example time:us. Units: {', '.join(UNITS)}.")
+        raise ValueError(
+            f"{text!r} is not a field with a unit. Write it as FIELD:UNIT, for example time:us. Units: "
+            f"{', '.join(UNITS)}."
+        )
     return field or None, unit or None
 
 

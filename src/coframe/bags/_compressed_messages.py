@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["UnpackedMessages"]
 
-_PART = 64 << 20  # bytes of unpacked messages in a batch
+_BATCH_BYTES = 64 << 20  # bytes of unpacked messages in a batch
 
 
 class UnpackedMessages(Storage):
@@ -26,19 +26,19 @@ class UnpackedMessages(Storage):
         super().__init__(packed.path, packed.problems)
         self.format = packed.format
         self.compressions = {f"{compression} (each message)"}
-        self._packed = packed
+        self._packed_messages = packed
         self._compression = compression
         # The total size of messages with an unusual ratio is limited. Each of them is counted once.
         self._budget = unpacked_budget(packed.size)
-        self._counted: set[int] = set()  # their positions
+        self._counted_positions: set[int] = set()  # their positions
 
     def channels(self) -> list[Channel]:
         """Return the channels of the wrapped storage."""
-        return self._packed.channels()
+        return self._packed_messages.channels()
 
     def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
         """Yield the batches of the wrapped storage with unpacked messages."""
-        for batch in self._packed.batches(wanted, progress):
+        for batch in self._packed_messages.batches(wanted, progress):
             if batch.messages is None:
                 yield batch
                 continue
@@ -46,11 +46,11 @@ class UnpackedMessages(Storage):
 
     def listing(self) -> Listing | None:
         """Return the index of the wrapped storage."""
-        return self._packed.listing()
+        return self._packed_messages.listing()
 
     def read_chunk(self, chunk: ListedChunk) -> Iterator[Batch]:
         """Yield the messages of a chunk, unpacked."""
-        for batch in self._packed.read_chunk(chunk):
+        for batch in self._packed_messages.read_chunk(chunk):
             if batch.messages is not None:
                 yield from self._unpack_batch(batch.channel, batch, batch.messages)
 
@@ -68,29 +68,29 @@ class UnpackedMessages(Storage):
             rows.append(row)
             unpacked.append(data)
             size += len(data)
-            if size >= _PART:
+            if size >= _BATCH_BYTES:
                 yield Batch(channel, packed.received[rows], packed.positions[rows], Slices.join(unpacked))
                 rows, unpacked, size = [], [], 0
         yield Batch(channel, packed.received[rows], packed.positions[rows], Slices.join(unpacked))
 
     def _unpack(self, position: int, message: bytes | memoryview) -> bytes:
         usual = MAX_RATIO * len(message)
-        if position in self._counted:
+        if position in self._counted_positions:
             return unpack_message(self._compression, message)
         data = unpack_message(self._compression, message, min(MAX_UNPACKED_MESSAGE, max(usual, self._budget)))
         if len(data) > usual:
-            self._counted.add(position)
+            self._counted_positions.add(position)
             self._budget -= len(data)
         return data
 
     def read(self, position: int) -> bytes:
         """Return the unpacked bytes of one message."""
-        return self._unpack(position, self._packed.read(position))
+        return self._unpack(position, self._packed_messages.read(position))
 
     def head(self, position: int, size: int) -> bytes:
         """Return the first bytes of one message, without unpacking the rest."""
-        return unpack_beginning(self._compression, self._packed.read(position), size)
+        return unpack_beginning(self._compression, self._packed_messages.read(position), size)
 
     def close(self) -> None:
         """Close the file."""
-        self._packed.close()
+        self._packed_messages.close()

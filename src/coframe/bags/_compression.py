@@ -47,7 +47,7 @@ def unpack(compression: str, data: bytes | memoryview, size: int) -> bytes:
     if compression not in _OPENERS:
         raise DamagedError(f"unknown compression {compression[:20]!r}; known: {', '.join(_OPENERS)}")
     if size > MAX_UNPACKED_BYTES:
-        raise DamagedError(f"a chunk claims to have {size} bytes, more than the limit of {MAX_UNPACKED_BYTES}")
+        raise DamagedError(f"a chunk claims to have {size} bytes; the maximum is {MAX_UNPACKED_BYTES}")
     if size > max(_MAX_SMALL_SIZE, _MAX_RATIO * len(data)) + 1:
         raise DamagedError(
             f"a chunk of {len(data)} bytes claims to unpack to {size} bytes, more than {_MAX_RATIO} times as many"
@@ -56,7 +56,7 @@ def unpack(compression: str, data: bytes | memoryview, size: int) -> bytes:
     try:
         unpacked: bytes = open_(data).read(size)
     except Exception as error:  # noqa: BLE001 - each library has its own exceptions
-        unpacked = _undamaged_data(open_(data), size)
+        unpacked = _read_undamaged(open_(data), size)
         if not unpacked:
             raise DamagedError(f"{compression} reports: {error}") from None
     return unpacked
@@ -85,22 +85,22 @@ def unpack_message(compression: str, data: bytes | memoryview, largest: int = MA
     """
     limit = min(largest, max(_MAX_SMALL_SIZE, _MAX_RATIO * len(data)))
     # One byte more than the limit shows that the message is too large, even if the file states another size.
-    if _stated_size(compression, data) > limit or len(unpacked := unpack(compression, data, limit + 1)) > limit:
+    if _declared_size(compression, data) > limit or len(unpacked := unpack(compression, data, limit + 1)) > limit:
         raise DamagedError(f"a message of {len(data)} bytes unpacks to more than the maximum of {limit} bytes")
     return unpacked
 
 
-def _stated_size(compression: str, data: bytes | memoryview) -> int:
+def _declared_size(compression: str, data: bytes | memoryview) -> int:
     """Return the unpacked size stated in compressed data; 0 if there is none."""
     if compression != "zstd":
         return 0
-    zstandard = _module("zstandard")
+    zstandard = _import_module("zstandard")
     with contextlib.suppress(zstandard.ZstdError):
         return max(int(zstandard.frame_content_size(data)), 0)
     return 0
 
 
-def _undamaged_data(reader: Any, size: int) -> bytes:
+def _read_undamaged(reader: Any, size: int) -> bytes:
     """Return the data before the damage."""
     unpacked = bytearray()
     with contextlib.suppress(Exception):
@@ -113,12 +113,12 @@ _PIECE_BYTES = 4096  # bytes
 
 
 def _zstd() -> Callable[[Any], Any]:
-    zstandard = _module("zstandard")
+    zstandard = _import_module("zstandard")
     return lambda data: zstandard.ZstdDecompressor().stream_reader(data, read_across_frames=True)
 
 
 def _lz4() -> Callable[[Any], Any]:
-    lz4_frame = _module("lz4.frame")
+    lz4_frame = _import_module("lz4.frame")
     return lambda data: lz4_frame.open(io.BytesIO(data))
 
 
@@ -131,7 +131,7 @@ def _bz2() -> Callable[[Any], Any]:
 _OPENERS: dict[str, Callable[[], Callable[[Any], Any]]] = {"zstd": _zstd, "lz4": _lz4, "bz2": _bz2}
 
 
-def _module(name: str) -> Any:
+def _import_module(name: str) -> Any:
     try:
         return importlib.import_module(name)
     except ModuleNotFoundError:

@@ -147,7 +147,7 @@ class _Reading:
         self._problems = Problems()
         self._types = RecordedTypes()
         self._index = MessageIndex(path, self._types)
-        self._collected = TransformCollector(self._problems, choice, on_transforms)
+        self._collector = TransformCollector(self._problems, choice, on_transforms)
         self._is_watched = on_transforms is not None
         self._tracks: dict[Channel, _ChannelTrack] = {}
 
@@ -205,9 +205,9 @@ class _Reading:
         """Return the transforms; read them first if they are waiting in chunks."""
         if waiting is not None:
             waiting.read_transforms()
-        buffers = self._collected.buffers()
+        buffers = self._collector.buffers()
         with_transforms = [track for track in self._index.tracks() if _has_transforms(track.channel)]
-        buffer = self._collected.common_buffer(
+        buffer = self._collector.common_buffer(
             buffers, lambda: reread(with_transforms) if waiting is None else _again(waiting)
         )
         report_mixed_clocks(buffer, self._problems)
@@ -230,7 +230,7 @@ class _Reading:
     def _track(self, storage: Storage, channel: Channel) -> _ChannelTrack:
         if channel not in self._tracks:
             self._tracks[channel] = _ChannelTrack(
-                self._index.add_track(storage, channel), self._collected.ingest(channel)
+                self._index.add_track(storage, channel), self._collector.ingest(channel)
             )
         return self._tracks[channel]
 
@@ -243,7 +243,7 @@ class _Reading:
             self._problems.add(f"{channel.topic}: {text}")
         if not batch.is_intact and _has_transforms(channel):
             # A flipped bit in a transform would be a wrong pose without a word.
-            text = f"{channel.topic}: messages in damaged chunks were left out, because their transforms may be wrong"
+            text = f"{channel.topic}: messages in damaged chunks were skipped, because their transforms may be wrong"
             self._problems.add(text, len(batch.received))
             return
         if keep:
@@ -286,7 +286,7 @@ class _Reading:
         if apart:
             names = join_names(group[0].path.name for group in groups.values())
             raise RecordingError(
-                f"{self._path} contains {len(groups)} recordings that were made at different times: {names}",
+                f"{self._path} contains {len(groups)} recordings from different times: {names}",
                 hint="Give the path of one of them.",
             )
 

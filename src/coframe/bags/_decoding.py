@@ -67,7 +67,7 @@ def _protobuf_decoder(channel: Channel, types: RecordedTypes) -> Callable[[bytes
         raise UnknownTypeError(
             "the recording contains no definition"
             if not channel.definition
-            else f"the definition is longer than {MAX_DEFINITION} bytes"
+            else f"the definition is longer than the maximum of {MAX_DEFINITION} bytes"
         )
     types.count(channel)
     pool = descriptor_pool.DescriptorPool()

@@ -96,13 +96,13 @@ def open_files(
     except OSError as error:
         raise RecordingError(
             f"{path} cannot be read: {error.strerror or error}",
-            hint=(isinstance(path, Path) and _existing_instead(path)) or reading_hint(error),
+            hint=(isinstance(path, Path) and _similar_paths_hint(path)) or reading_hint(error),
         ) from None
     if not found:
         reasons = problems.sentences()
         raise RecordingError(
             f"{path} is not a recording" + (f": {reasons[0].removeprefix(f'{path}: ')}" if reasons else ""),
-            hint=(isinstance(path, Path) and _inner_recordings(path))
+            hint=(isinstance(path, Path) and _inner_recordings_hint(path))
             or f"Give a {file_kinds()}, or the folder that contains such files.",
         )
     if word(metadata, "compression_mode").lower() == "message":
@@ -111,7 +111,7 @@ def open_files(
     return OpenedFiles(found, list(listed_topics(metadata)), metadata)
 
 
-def _existing_instead(path: Path) -> str:
+def _similar_paths_hint(path: Path) -> str:
     """Return a hint with similar paths if a path does not exist; "" if there are none, or if it exists."""
     try:
         entries = [] if os.path.lexists(path) else sorted(path.parent.iterdir())
@@ -127,7 +127,7 @@ def _existing_instead(path: Path) -> str:
     return f"Recordings in {str(path.parent.absolute())!r}: {join_names(recordings)}." if recordings else ""
 
 
-def _inner_recordings(folder: Path) -> str:
+def _inner_recordings_hint(folder: Path) -> str:
     """Return a hint that names the recordings inside a folder; "" if there are none."""
     try:
         inner = [each.name for each in sorted(folder.iterdir()) if each.is_dir() and (each / METADATA).is_file()]
@@ -243,11 +243,11 @@ class _PackedFile:
 
     def __init__(self, packed: BinaryIO, whole: BinaryIO) -> None:
         self._packed = packed
-        self._whole = whole
+        self._unpacked_file = whole
 
     @property
     def is_implausible(self) -> bool:
-        return self._packed.tell() > self._whole.tell() + _MAX_EXPANSION
+        return self._packed.tell() > self._unpacked_file.tell() + _MAX_EXPANSION
 
     def read(self, size: int) -> bytes:
         return b"" if self.is_implausible else self._packed.read(size)

@@ -34,7 +34,7 @@ _FIELDS = {
     "translation": ("translation",),
     "rotation": ("rotation",),
 }
-_NESTED = ("header", "transform")  # objects with some of these fields, in ROS and in old schemas of Foxglove
+_NESTED_KEYS = ("header", "transform")  # objects with some of these fields, in ROS and in old schemas of Foxglove
 _IGNORED_FIELDS = {"seq"}
 
 
@@ -83,16 +83,16 @@ def _collect(value: dict[str, Any], fields: dict[str, Any]) -> list[str]:
         if field is not None:
             # The time of the inner object of Foxglove's old schema repeats that of the outer one.
             fields.setdefault(field, content)
-        elif name in _NESTED:
-            unknown += _collect_inner(_object(content, name), fields)
+        elif name in _NESTED_KEYS:
+            unknown += _collect_flat(_object(content, name), fields)
         elif name not in _IGNORED_FIELDS:
             unknown.append(name)
     return unknown
 
 
-def _collect_inner(value: dict[str, Any], fields: dict[str, Any]) -> list[str]:
-    if any(name in value for name in _NESTED):
-        raise ValueError("objects in objects, unlike in a transform")
+def _collect_flat(value: dict[str, Any], fields: dict[str, Any]) -> list[str]:
+    if any(name in value for name in _NESTED_KEYS):
+        raise ValueError("a transform with nested objects is not supported")
     return _collect(value, fields)
 
 
@@ -121,7 +121,7 @@ def _nanoseconds(stamp: Any) -> int:
             # Protobuf omits zeros.
             fraction_ns = _integer(fractions[0]) if fractions else 0
             if not 0 <= fraction_ns < time.SECOND:
-                raise ValueError(f"a timestamp has {fraction_ns} nanoseconds besides its seconds")
+                raise ValueError(f"a timestamp has {fraction_ns} nanoseconds in addition to its seconds")
             return (_integer(seconds[0]) if seconds else 0) * time.SECOND + fraction_ns
     raise ValueError(f"the timestamp {json.dumps(stamp)[:80]} is in none of the known forms")
 

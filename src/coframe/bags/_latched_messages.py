@@ -72,7 +72,7 @@ class LatchedMessages:
         self._space = space
         self._messages: dict[int, LatchedMessage] = {}
         self._last: dict[Hashable, int] = {}  # the number of the last message that describes a frame or a publisher
-        self._described: dict[int, int] = {}  # how many of these a message is the last one of
+        self._described_channels: dict[int, int] = {}  # how many of these a message is the last one of
         self._count = 0
         self.omitted = 0
 
@@ -91,16 +91,16 @@ class LatchedMessages:
             return
         self._count += 1
         self._messages[self._count] = LatchedMessage(data, published)
-        self._described[self._count] = len(keys)
+        self._described_channels[self._count] = len(keys)
         self._last.update(dict.fromkeys(keys, self._count))
 
     def _forget(self, key: Hashable) -> None:
         number = self._last.pop(key, None)
         if number is None:
             return
-        self._described[number] -= 1
-        if not self._described[number]:
-            del self._described[number]
+        self._described_channels[number] -= 1
+        if not self._described_channels[number]:
+            del self._described_channels[number]
             self._space.give_back(len(self._messages.pop(number).data))
 
     def _keys(self, data: bytes, publisher: Hashable) -> frozenset[Hashable]:

@@ -75,9 +75,9 @@ class McapStorage(ChunkedStorage):
         super().__init__(path, problems)
         self._schemas: dict[int, tuple[str, str, bytes]] = {}
         self._channels: dict[int, Channel] = {}
-        self._defined: dict[int, bytes] = {}  # the records of channels
+        self._channel_records: dict[int, bytes] = {}  # the records of channels
         self._counts: dict[int, int] = {}  # messages by channel
-        self._listed: dict[int, int] | None = None  # the same by the statistics in the summary
+        self._listed_counts: dict[int, int] | None = None  # the same by the statistics in the summary
         self._listed_total: int | None = None
         self._chunk_indexes: list[_ChunkIndex] = []
 
@@ -91,7 +91,7 @@ class McapStorage(ChunkedStorage):
         done = 0
         chunks = self._read_summary()
         missing = set(chunks)
-        for offset, opcode, end in self._walk(chunks):
+        for offset, opcode, end in self._walk_records(chunks):
             if opcode == _CHUNK:
                 missing.discard(offset)
                 yield from self._chunk_batches(offset)
@@ -101,7 +101,7 @@ class McapStorage(ChunkedStorage):
                     self.add_problem(f"the record at byte {offset} claims to have {end - offset} bytes")
                     continue
                 data = self.bytes_at(offset, max(end - offset, _BLOCK_BYTES))
-                done = offset + (yield from self._inner(data, offset))
+                done = offset + (yield from self._read_records(data, offset))
                 progress(done)
         if missing:
             self.add_problem(f"there is no chunk at byte {min(missing)}, where the index lists one", len(missing))
@@ -119,7 +119,7 @@ class McapStorage(ChunkedStorage):
         ends = [len(MCAP.magic), *(each.index_end for each in indexes)]
         gaps = [(end, index.offset) for end, index in zip(ends, indexes, strict=False) if end != index.offset]
         is_complete = (
-            self._listed is not None
+            self._listed_counts is not None
             and bool(chunks)
             and are_consistent(chunks, len(MCAP.magic), self.size)
             and len(gaps) <= _MAX_GAPS
@@ -130,7 +130,7 @@ class McapStorage(ChunkedStorage):
         for index in indexes:
             self.add_chunk(index.offset)
             self.compressions.add(index.compression)
-        counts = {channel: (self._listed or {}).get(number, 0) for number, channel in self._channels.items()}
+        counts = {channel: (self._listed_counts or {}).get(number, 0) for number, channel in self._channels.items()}
         return Listing(chunks, counts)
 
     def _listed_channels(self, index: _ChunkIndex) -> frozenset[Channel] | None:
@@ -160,7 +160,7 @@ class McapStorage(ChunkedStorage):
             return
         yield from self._chunk_batches(chunk.offset)
 
-    def _walk(self, chunks: list[int]) -> Iterator[tuple[int, int, int]]:
+    def _walk_records(self, chunks: list[int]) -> Iterator[tuple[int, int, int]]:
         """Yield offset, opcode and end of each record of the data section; continue at the next chunk after damage."""
         offset, damaged = len(MCAP.magic), 0
         while (head := self.bytes_at(offset, _RECORD.size)) and len(head) == _RECORD.size:
@@ -207,7 +207,9 @@ class McapStorage(ChunkedStorage):
         if rest > 0:
             what = "another MCAP file begins there" if self.bytes_at(offset + len(MCAP.magic), 8) == MCAP.magic else ""
             self.add_problem(
-                f"the last {rest} bytes were not read: they are behind the end of the file; {what}".rstrip("; ")
+                f"the last {rest} bytes were not read, because they follow the end of the recording; {what}".rstrip(
+                    "; "
+                )
             )
 
     def _read_summary(self) -> list[int]:
@@ -241,7 +243,7 @@ class McapStorage(ChunkedStorage):
             numbers = [number for number, _ in _CHANNEL_COUNT.iter_unpack(content[_CHUNK_INDEX_HEAD.size :][:channels])]
             position = _CHUNK_INDEX_HEAD.size + channels
             (after,) = struct.unpack_from("<Q", content, position)
-            compression, position = _text(content, position + 8)
+            compression, position = _read_string(content, position + 8)
             _, unpacked = struct.unpack_from("<QQ", content, position)
         except (struct.error, ValueError):
             offset = int.from_bytes(content[16:24], "little")
@@ -267,25 +269,25 @@ class McapStorage(ChunkedStorage):
         self._listed_total, *_, size = _STATISTICS_HEAD.unpack_from(content)
         counts = content[_STATISTICS_HEAD.size :][:size]
         if size and len(counts) == size and size % _CHANNEL_COUNT.size == 0:
-            self._listed = dict(_CHANNEL_COUNT.iter_unpack(counts))
+            self._listed_counts = dict(_CHANNEL_COUNT.iter_unpack(counts))
 
     def _check_statistics(self) -> None:
         """Report messages that the recorder counted but that are not there, or the other way round."""
         read = sum(self._counts.values())
-        if self._listed is None:
+        if self._listed_counts is None:
             if self._listed_total not in {None, read}:
-                self.add_problem(f"its statistics count {self._listed_total} messages, but {read} were read")
+                self.add_problem(f"the statistics count {self._listed_total} messages, but {read} were read")
             return
-        for number in sorted(self._listed.keys() | self._counts.keys()):
-            listed, found = self._listed.get(number, 0), self._counts.get(number, 0)
+        for number in sorted(self._listed_counts.keys() | self._counts.keys()):
+            listed, found = self._listed_counts.get(number, 0), self._counts.get(number, 0)
             if listed != found:
                 topic = self._channels[number].topic if number in self._channels else f"channel {number}"
-                text = f"its statistics count {count(listed, 'message')} on {topic}, but {found}"
+                text = f"the statistics count {count(listed, 'message')} on {topic}, but {found}"
                 self.add_problem(f"{text} {'was' if found == 1 else 'were'} read")
-        if self._listed_total != sum(self._listed.values()):
+        if self._listed_total != sum(self._listed_counts.values()):
             self.add_problem(
-                f"its statistics contradict themselves: {self._listed_total} messages in total, but "
-                f"{sum(self._listed.values())} on all topics"
+                f"the statistics contradict themselves: {self._listed_total} messages in total, but "
+                f"{sum(self._listed_counts.values())} on all topics"
             )
 
     def _check_footer(self, data_end: int) -> None:
@@ -297,8 +299,7 @@ class McapStorage(ChunkedStorage):
         start = _FOOTER_RECORD.unpack(tail)[2]
         if start not in {0, data_end}:
             self.add_problem(
-                f"the footer is damaged: it says that the summary begins at byte {start}, but the data end at byte "
-                f"{data_end}"
+                f"the footer is damaged: it places the summary at byte {start}, but the data end at byte {data_end}"
             )
 
     def _chunk_batches(self, offset: int) -> Iterator[Batch]:
@@ -310,7 +311,7 @@ class McapStorage(ChunkedStorage):
             return
         if not is_intact:
             self.add_problem(f"the chunk at byte {offset} is damaged: its checksum does not match")
-        done = yield from self._inner(data, base, is_intact=is_intact)
+        done = yield from self._read_records(data, base, is_intact=is_intact)
         if done < len(data):
             self.add_problem(f"{len(data) - done} bytes inside a chunk are damaged or missing")
 
@@ -325,16 +326,16 @@ class McapStorage(ChunkedStorage):
         chunk = memoryview(self.bytes_at(offset + _RECORD.size, min(length, self.size - offset - _RECORD.size)))
         try:
             _, _, size, crc = _CHUNK_HEAD.unpack_from(chunk)
-            compression, start = _text(chunk, _CHUNK_HEAD.size)
+            compression, start = _read_string(chunk, _CHUNK_HEAD.size)
         except (struct.error, ValueError):
-            raise DamagedError("its header is damaged or truncated") from None
+            raise DamagedError("the header of the file is damaged or truncated") from None
         self.compressions.add(compression or "none")
         packed = chunk[start + 8 :]
         self.check_budget(offset, len(packed), size)
         data = unpack(compression, packed, size)
         return data, crc in {0, zlib.crc32(data)}
 
-    def _inner(self, data: bytes, base: int, *, is_intact: bool = True) -> Generator[Batch, None, int]:
+    def _read_records(self, data: bytes, base: int, *, is_intact: bool = True) -> Generator[Batch, None, int]:
         """Yield the messages in a sequence of records; return the number of bytes that were read.
 
         Args:
@@ -357,7 +358,7 @@ class McapStorage(ChunkedStorage):
             valid = of_channel & (times < _MAX_RECEIVE_TIME)
             parts = [(valid, self._channels.get(number))]
             if number in before:
-                parts = _divided(valid, records, before[number], parts[0][1])
+                parts = _split_at_definitions(valid, records, before[number], parts[0][1])
             for rows, channel in parts:
                 if channel is None:
                     self.add_problem(f"messages of channel {number}, which is not defined", int(np.count_nonzero(rows)))
@@ -390,22 +391,22 @@ class McapStorage(ChunkedStorage):
             The number of a channel and its definition so far, if this is another one.
         """
         identifier = int.from_bytes(data[:2], "little")
-        if opcode == _CHANNEL and self._defined.get(identifier) == data:
+        if opcode == _CHANNEL and self._channel_records.get(identifier) == data:
             return None
         try:
             if opcode == _SCHEMA:
                 known = self._schemas.get(identifier)
                 if known is not None and known[2] and data.endswith(known[2]):
                     return None
-                name, position = _text(data, 2)
-                kind, position = _text(data, position)
+                name, position = _read_string(data, 2)
+                kind, position = _read_string(data, position)
                 name, kind = sys.intern(name), sys.intern(kind)  # Tens of thousands of schemas can have the same name.
                 (length,) = struct.unpack_from("<I", data, position)
                 self._schemas[identifier] = (name, kind, data[position + 4 : position + 4 + length])
                 return None
             number, schema = struct.unpack_from("<HH", data)
-            topic, position = _text(data, 4)
-            encoding, position = _text(data, position)
+            topic, position = _read_string(data, 4)
+            encoding, position = _read_string(data, position)
             encoding = sys.intern(encoding)
             offered_qos = _entry(data, position, "offered_qos_profiles")
         except (struct.error, ValueError, IndexError):
@@ -416,12 +417,12 @@ class McapStorage(ChunkedStorage):
             name = _ros_type(name)
         channel = Channel(topic, name, encoding, definition, kind, offered_qos)
         known_channel = self._channels.get(number)
-        if known_channel is not None and _facts(known_channel) == _facts(channel):
-            self._defined[number] = data
+        if known_channel is not None and _channel_key(known_channel) == _channel_key(channel):
+            self._channel_records[number] = data
             return None  # Messages of a channel are one track, also if its metadata are written in another order.
         if known_channel is not None and known_channel.type:
             self.add_problem(f"channel {number} is defined differently for {known_channel.topic} and for {topic}")
-        self._channels[number], self._defined[number] = channel, data
+        self._channels[number], self._channel_records[number] = channel, data
         return None if known_channel is None else (number, known_channel)
 
 
@@ -436,7 +437,7 @@ def _ros_type(name: str) -> str:
         return name
 
 
-def _divided(
+def _split_at_definitions(
     rows: NDArray[np.bool_],
     records: NDArray[np.uint64],
     before: list[tuple[int, Channel]],
@@ -450,7 +451,7 @@ def _divided(
     return [(part, definition) for part, definition in [*parts, (rows, channel)] if part.any()]
 
 
-def _facts(channel: Channel) -> tuple[str, str, str, bytes]:
+def _channel_key(channel: Channel) -> tuple[str, str, str, bytes]:
     return channel.topic, channel.type, channel.encoding, channel.definition
 
 
@@ -463,14 +464,14 @@ def _entry(data: bytes, position: int, wanted: str) -> str:
     end = min(position + 4 + int.from_bytes(data[position : position + 4], "little"), len(data))
     position += 4
     while position < end:
-        key, position = _text(data, position)
-        value, position = _text(data, position)
+        key, position = _read_string(data, position)
+        value, position = _read_string(data, position)
         if key == wanted:
             return value
     return ""
 
 
-def _text(data: bytes | memoryview, position: int) -> tuple[str, int]:
+def _read_string(data: bytes | memoryview, position: int) -> tuple[str, int]:
     """Return the length-prefixed string at a position, and the offset of its end."""
     (length,) = struct.unpack_from("<I", data, position)
     end = position + 4 + length

@@ -65,7 +65,7 @@ class McapWriter:
         self._sequences: list[int] = []  # the next sequence number by channel
         self._pending = bytearray()
         self._index: dict[int, array[int]] = {}  # by channel: log time and offset of each pending message
-        self._first, self._last = 0, 0  # log times of the pending messages
+        self._first_time, self._last = 0, 0  # log times of the pending messages
         self._chunks = 0
         self._chunk_index = bytearray()  # their index records
         self._end = 0  # offset of the next chunk
@@ -73,7 +73,7 @@ class McapWriter:
         self.counts: list[int] = []
         self.start = 0
         self.end = 0
-        self._append(MCAP.magic + _record(_HEADER, _text("ros2") + _text("coframe")), with_summary=False)
+        self._append(MCAP.magic + _pack_record(_HEADER, _text("ros2") + _text("coframe")), with_summary=False)
 
     @property
     def size(self) -> int:
@@ -107,13 +107,13 @@ class McapWriter:
             text = struct.pack("<H", self._schemas[key]) + b"".join(
                 map(_text, (ros_type, definition_format, definition))
             )
-            self._define(_record(_SCHEMA, text))
+            self._define(_pack_record(_SCHEMA, text))
         number = len(self.counts)
         self.counts.append(0)
         self._sequences.append(0)
         pairs = b"".join(_text(part) for pair in metadata.items() for part in pair)
         head = struct.pack("<HH", number, self._schemas[key]) + _text(topic) + _text(encoding)
-        self._define(_record(_CHANNEL, head + struct.pack("<I", len(pairs)) + pairs))
+        self._define(_pack_record(_CHANNEL, head + struct.pack("<I", len(pairs)) + pairs))
         return number
 
     def write(self, channel: int, data: bytes, log_time: int, publish_time: int) -> None:
@@ -122,8 +122,8 @@ class McapWriter:
             self._index[channel] = array("Q")
         self._index[channel].extend((log_time, len(self._pending)))
         if len(self._index) == 1 and len(self._index[channel]) == 2:
-            self._first = self._last = log_time
-        self._first, self._last = min(self._first, log_time), max(self._last, log_time)
+            self._first_time = self._last = log_time
+        self._first_time, self._last = min(self._first_time, log_time), max(self._last, log_time)
         length = _MESSAGE_HEAD + len(data)
         sequence = self._sequences[channel] & 0xFFFFFFFF
         self._pending += _MESSAGE_RECORD.pack(_MESSAGE, length, channel, sequence, log_time, publish_time)
@@ -140,16 +140,16 @@ class McapWriter:
         if not self._index:
             return
         packed = self._compress(bytes(self._pending))
-        times = struct.pack("<QQ", self._first, self._last)
+        times = struct.pack("<QQ", self._first_time, self._last)
         head = times + struct.pack("<QI", len(self._pending), zlib.crc32(self._pending)) + self._compression
-        chunk = _record(_CHUNK, head + struct.pack("<Q", len(packed)) + packed)
+        chunk = _pack_record(_CHUNK, head + struct.pack("<Q", len(packed)) + packed)
         indices, offsets = self._message_indices(self._end + len(chunk))
         index = times + struct.pack("<QQI", self._end, len(chunk), len(offsets)) + offsets
         index += (
             struct.pack("<Q", len(indices)) + self._compression + struct.pack("<QQ", len(packed), len(self._pending))
         )
         statistics = (self.start, self.end, self.counts.copy())
-        record = _record(_CHUNK_INDEX, index)
+        record = _pack_record(_CHUNK_INDEX, index)
         self._count_pending(record)
         try:
             self._append(chunk + indices, with_summary=self._is_index_small())
@@ -184,7 +184,7 @@ class McapWriter:
 
     def _count_pending(self, chunk_index: bytes) -> None:
         """Count the pending messages as flushed."""
-        self.start = min(self.start, self._first) if self.count else self._first
+        self.start = min(self.start, self._first_time) if self.count else self._first_time
         self.end = max(self.end, self._last)
         for channel, entries in self._index.items():
             self.counts[channel] += len(entries) // 2
@@ -206,7 +206,7 @@ class McapWriter:
         for channel, entries in self._index.items():
             offsets += struct.pack("<HQ", channel, offset + len(records))
             packed = struct.pack(f"<{len(entries)}Q", *entries)
-            records += _record(_MESSAGE_INDEX, struct.pack("<HI", channel, len(packed)) + packed)
+            records += _pack_record(_MESSAGE_INDEX, struct.pack("<HI", channel, len(packed)) + packed)
         return bytes(records), bytes(offsets)
 
     def _summary(self, offset: int) -> bytes:
@@ -217,14 +217,14 @@ class McapWriter:
             *(self.count, len(self._schemas), len(self.counts), 0, 0, self._chunks, self.start, self.end),
         )
         groups: list[tuple[int, bytes | bytearray]] = [*self._definition_groups(), (_CHUNK_INDEX, self._chunk_index)]
-        groups.append((_STATISTICS, _record(_STATISTICS, statistics + struct.pack("<I", len(counts)) + counts)))
-        data_end = _record(_DATA_END, bytes(4))
+        groups.append((_STATISTICS, _pack_record(_STATISTICS, statistics + struct.pack("<I", len(counts)) + counts)))
+        data_end = _pack_record(_DATA_END, bytes(4))
         start = offset + len(data_end)
         summary, offsets = bytearray(), bytearray()
         for opcode, records in groups:
             if records:
                 group = struct.pack("<BQQ", opcode, start + len(summary), len(records))
-                offsets += _record(_SUMMARY_OFFSET, group)
+                offsets += _pack_record(_SUMMARY_OFFSET, group)
                 summary += records
         footer = _RECORD.pack(_FOOTER, 20) + struct.pack("<QQ", start, start + len(summary))
         checksum = zlib.crc32(summary + offsets + footer)
@@ -264,7 +264,7 @@ class McapWriter:
             rest = rest[self._file.write(rest) :]
 
 
-def _record(opcode: int, content: bytes) -> bytes:
+def _pack_record(opcode: int, content: bytes) -> bytes:
     return _RECORD.pack(opcode, len(content)) + content
 
 
@@ -274,7 +274,7 @@ def _text(text: str) -> bytes:
 
 
 # The end of a file without a summary.
-_END = _record(_DATA_END, bytes(4)) + _record(_FOOTER, bytes(20)) + MCAP.magic
+_END = _pack_record(_DATA_END, bytes(4)) + _pack_record(_FOOTER, bytes(20)) + MCAP.magic
 
 
 def compressor(name: str) -> Callable[[bytes], bytes]:

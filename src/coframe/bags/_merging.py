@@ -56,16 +56,17 @@ class MergedNames:
         self._namespaces = [_namespace(each) for each in namespaces or [""] * len(recordings)]
         if prefixes is not None and len(prefixes) != len(recordings):
             raise ValueError(
-                f"each of the {len(recordings)} recordings needs one prefix, in the same order; {len(prefixes)} given"
+                f"each of the {len(recordings)} recordings needs one prefix, in the same order, but there are "
+                f"{len(prefixes)}"
             )
         self._recordings = recordings
         self._prefixes = list(prefixes) if prefixes is not None else _own_prefixes(recordings)
         self._renamings = [renaming(prefix, shared_frames(keep)) for prefix in prefixes or [""] * len(recordings)]
-        self._is_given = prefixes is not None or namespaces is not None
-        self._shared: dict[str, list[int]] = {}  # the recordings that contain a topic
+        self._has_given_prefixes = prefixes is not None or namespaces is not None
+        self._shared_topics: dict[str, list[int]] = {}  # the recordings that contain a topic
         for number, recording in enumerate(recordings):
             for name in recording.topics:
-                self._shared.setdefault(name, []).append(number)
+                self._shared_topics.setdefault(name, []).append(number)
 
     def frames(self, recording: int) -> _core.Renaming | None:
         """Return the renaming of the frames of a recording; None if they keep their names."""
@@ -84,7 +85,7 @@ class MergedNames:
         if self._namespaces[recording]:
             return name if absolute(name) in _SYSTEM_TOPICS else f"{self._namespaces[recording]}{absolute(name)}"
         prefix = self._prefixes[recording]
-        is_alone = len(self._shared.get(name, ())) < 2 and not self._is_given
+        is_alone = len(self._shared_topics.get(name, ())) < 2 and not self._has_given_prefixes
         if not prefix or is_alone or absolute(name) in _SHARED_TOPICS or absolute(name).startswith(f"/{prefix}"):
             return name
         return f"/{prefix}{absolute(name).lstrip('/')}"
@@ -102,22 +103,22 @@ class MergedNames:
                 if self._recordings[number].topics[name].messages:
                     new = self.topic(number, name)
                     sources.setdefault(new, []).append((number, name))
-                    if new != name and not self._is_given:
+                    if new != name and not self._has_given_prefixes:
                         apart.setdefault(name, []).append(new)
         kept_apart = [
             f"{name}: kept apart as {join_names(new)}, because the frames have different prefixes"
             for name, new in apart.items()
         ]
         joined = [
-            f"{name}: joined from {len(parts)} recordings{self._frames_of(parts)}"
+            f"{name}: joined from {len(parts)} recordings{self._frames_text(parts)}"
             for name, parts in sources.items()
             if len(parts) > 1 and absolute(name) not in _SHARED_TOPICS
         ]
         return kept_apart + joined
 
-    def _frames_of(self, parts: list[tuple[int, str]]) -> str:
+    def _frames_text(self, parts: list[tuple[int, str]]) -> str:
         """Return the frames of the messages of a joined topic if they differ between the recordings."""
-        found = [_frames_in(self._recordings[number], name) - {""} for number, name in parts]
+        found = [_find_frames(self._recordings[number], name) - {""} for number, name in parts]
         if not all(found) or len(set.union(*found)) == len(set.intersection(*found)):
             return ""
         names = join_names(repr(frame) for frame in sorted(set.union(*found)))
@@ -148,7 +149,7 @@ def _own_prefix(recording: Recording) -> str:
     return f"{prefixes.pop()}/" if len(prefixes) == 1 and "" not in prefixes else ""
 
 
-def _frames_in(recording: Recording, topic: str) -> set[str]:
+def _find_frames(recording: Recording, topic: str) -> set[str]:
     if any(ingest_for(channel) for channel in recording.channels() if channel.topic == topic):
         return set()
     messages = recording.topics[topic].messages

@@ -59,7 +59,7 @@ class Track:
             stamps = batch.received if reader is None else reader.stamps(batch.messages, batch.received)
             self.stamps.frombytes(stamps.tobytes())
 
-    def first_bytes(self, position: int) -> bytes:
+    def read_beginning(self, position: int) -> bytes:
         """Return enough of a message to contain its stamp; empty if it cannot be read."""
         try:
             return self.storage.head(position, STAMP_BYTES)
@@ -309,7 +309,7 @@ class MessageIndex:
         if len(track.stamps) == len(track.received):
             return _int64(track.stamps)
         self._check_open()
-        heads = Slices.join([track.first_bytes(position) for position in track.positions])
+        heads = Slices.join([track.read_beginning(position) for position in track.positions])
         return reader.stamps(heads, received)
 
     def to_ros_time(self, received: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -17,8 +17,8 @@ _MAX_LENGTH = 1 << 20
 _KEEP_LAST, _KEEP_ALL = 1, 2
 _RELIABLE, _BEST_EFFORT = 1, 2
 _TRANSIENT_LOCAL, _VOLATILE = 1, 2
-_NUMBERS = {"keep_all": _KEEP_ALL, "best_effort": _BEST_EFFORT, "transient_local": _TRANSIENT_LOCAL}
-_FOREVER = "{sec: 9223372036, nsec: 854775807}"
+_POLICY_NUMBERS = {"keep_all": _KEEP_ALL, "best_effort": _BEST_EFFORT, "transient_local": _TRANSIENT_LOCAL}
+_INFINITE_DURATION = "{sec: 9223372036, nsec: 854775807}"
 _PROFILE = """\
 - history: {history}
   depth: {depth}
@@ -56,7 +56,7 @@ def to_yaml(profiles: Iterable[OfferedQos]) -> str:
             depth=profile.depth,
             reliability=_RELIABLE if profile.reliable else _BEST_EFFORT,
             durability=_TRANSIENT_LOCAL if profile.transient_local else _VOLATILE,
-            forever=_FOREVER,
+            forever=_INFINITE_DURATION,
         )
         for profile in profiles
     )
@@ -74,7 +74,8 @@ def from_yaml(text: str) -> tuple[OfferedQos, ...]:
 
 def _profile(profile: Any) -> OfferedQos:
     history, reliability, durability = (
-        _NUMBERS.get(value, value) for value in (profile[name] for name in ("history", "reliability", "durability"))
+        _POLICY_NUMBERS.get(value, value)
+        for value in (profile[name] for name in ("history", "reliability", "durability"))
     )
     return OfferedQos(
         depth=min(max(int(profile["depth"]), 1), 10_000),

@@ -30,8 +30,8 @@ __all__ = ["RecordedTypes", "UnknownTypeError"]
 
 _ROS_ENCODINGS = {"cdr", "ros1"}
 _EVENT = "_Event"
-_KEPT_TEXT = 2 << 20  # bytes of the definitions that are kept parsed
-_SHORT_TEXT = 1 << 13  # bytes of definitions whose beginning is cached for the next recording
+_MAX_CACHED_TEXT = 2 << 20  # bytes of the definitions that are kept parsed
+_MAX_SHORT_TEXT = 1 << 13  # bytes of definitions whose beginning is cached for the next recording
 _MIN_COUNTED_BYTES = 1 << 12  # minimum bytes counted per definition
 
 # The definition of a message that begins with a stamp contains one of these, or a sequence of messages that do.
@@ -65,10 +65,10 @@ class RecordedTypes:
     def __init__(self) -> None:
         self._lock = threading.RLock()
         self._classes = SchemaClasses()
-        self._found: dict[_Key, Any] = {}  # a class, or the reason why there is none
+        self._found_classes: dict[_Key, Any] = {}  # a class, or the reason why there is none
         self._beginnings: dict[_Key, _Beginning] = {}
-        self._parsed: OrderedDict[_Key, ResolvedSchema] = OrderedDict()
-        self._parsed_text = 0
+        self._parsed_schemas: OrderedDict[_Key, ResolvedSchema] = OrderedDict()
+        self._parsed_text_bytes = 0
         self._text = 0
 
     def message_class(self, channel: Channel) -> Any:
@@ -79,14 +79,14 @@ class RecordedTypes:
         """
         key = _key(channel)
         with self._lock:
-            if key not in self._found:
+            if key not in self._found_classes:
                 try:
-                    self._found[key] = self._new_class(channel)
+                    self._found_classes[key] = self._new_class(channel)
                 except UnknownTypeError as error:
-                    self._found[key] = str(error)
-        if isinstance(self._found[key], str):
-            raise UnknownTypeError(self._found[key])
-        return self._found[key]
+                    self._found_classes[key] = str(error)
+        if isinstance(self._found_classes[key], str):
+            raise UnknownTypeError(self._found_classes[key])
+        return self._found_classes[key]
 
     def own_class(self, channel: Channel) -> Any:
         """Return the class of the messages of a channel if it is one of coframe's; None otherwise."""
@@ -104,13 +104,13 @@ class RecordedTypes:
         """
         key = _key(channel)
         with self._lock:
-            if key not in self._parsed:
-                self._parsed[key] = self._new_schema(channel, key)
-                self._parsed_text += _weight(key)
-                while len(self._parsed) > 1 and self._parsed_text > _KEPT_TEXT:
-                    self._parsed_text -= _weight(self._parsed.popitem(last=False)[0])
-            self._parsed.move_to_end(key)
-            return self._parsed[key]
+            if key not in self._parsed_schemas:
+                self._parsed_schemas[key] = self._new_schema(channel, key)
+                self._parsed_text_bytes += _weight(key)
+                while len(self._parsed_schemas) > 1 and self._parsed_text_bytes > _MAX_CACHED_TEXT:
+                    self._parsed_text_bytes -= _weight(self._parsed_schemas.popitem(last=False)[0])
+            self._parsed_schemas.move_to_end(key)
+            return self._parsed_schemas[key]
 
     def stamp_reader(self, channel: Channel) -> StampReader | None:
         """Return the reader for the stamps of a channel's messages; None if they do not begin with a stamp."""
@@ -141,11 +141,11 @@ class RecordedTypes:
             known = None if channel.definition else known_class(_name(channel))
             if known is not None:
                 return _Beginning(known_first_stamp(known.ROS_TYPE), hasattr(known, "header"))
-            if not 0 < len(channel.definition) <= _SHORT_TEXT:
-                return _beginning_of(self.schema(channel))
-            if _key(channel) not in self._found:
+            if not 0 < len(channel.definition) <= _MAX_SHORT_TEXT:
+                return _find_beginning(self.schema(channel))
+            if _key(channel) not in self._found_classes:
                 self.count(channel)
-            return _beginning_of_text(channel.definition, _name(channel), channel.definition_format)
+            return _parse_beginning(channel.definition, _name(channel), channel.definition_format)
         except (UnknownTypeError, InterfaceError):
             return _UNKNOWN
 
@@ -162,7 +162,7 @@ class RecordedTypes:
 
     def _new_schema(self, channel: Channel, key: _Key) -> ResolvedSchema:
         name = _name(channel)
-        if key not in self._found and key not in self._beginnings:
+        if key not in self._found_classes and key not in self._beginnings:
             self.count(channel)
         try:
             if not channel.definition:
@@ -178,18 +178,18 @@ class RecordedTypes:
             UnknownTypeError: The definitions of the recording are too large in total.
         """
         if self._text + len(channel.definition) > MAX_RECORDED_TEXT:
-            raise UnknownTypeError(f"the definitions of the recording have more than {MAX_RECORDED_TEXT} bytes")
+            raise UnknownTypeError(f"the definitions of the recording exceed the maximum of {MAX_RECORDED_TEXT} bytes")
         self._text += len(channel.definition)
 
 
-def _beginning_of(schema: ResolvedSchema) -> _Beginning:
+def _find_beginning(schema: ResolvedSchema) -> _Beginning:
     first, has_header = first_stamp(schema), schema.has_field("header")
     return _NO_STAMP if first is None and not has_header else _Beginning(first, has_header)
 
 
 @functools.lru_cache(64)  # The same definitions, such as that of /tf, are in most recordings.
-def _beginning_of_text(definition: bytes, name: str, format_: str) -> _Beginning:
-    return _beginning_of(ResolvedSchema(parse_schema(definition, name, format_)))
+def _parse_beginning(definition: bytes, name: str, format_: str) -> _Beginning:
+    return _find_beginning(ResolvedSchema(parse_schema(definition, name, format_)))
 
 
 def _weight(key: _Key) -> int:

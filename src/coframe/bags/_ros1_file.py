@@ -115,7 +115,9 @@ class Ros1Storage(ChunkedStorage):
             except DamagedError as error:
                 damaged += 1
                 if self.bytes_at(offset, len(ROS1.magic)) == ROS1.magic:
-                    self.add_problem(f"the last {self.size - offset} bytes were not read: another bag begins there")
+                    self.add_problem(
+                        f"the last {self.size - offset} bytes were not read, because another bag begins there"
+                    )
                     return
                 if later is None or damaged > MAX_DAMAGED_PLACES:
                     self.add_problem(f"truncated at byte {offset} of {self.size}: {error}")

@@ -37,7 +37,7 @@ MAX_SQL: Final = 20_000  # bytes of the definition of a table; those of recordin
 MAX_COLUMNS: Final = 100
 MAX_RECOVERED: Final = 4 << 30  # bytes of a database that is copied because its recorder was killed
 _STEPS_PER_CHECK: Final = 1000
-_BEFORE_ALL: Final = -(1 << 63) - 1
+_BEFORE_FIRST_ROW: Final = -(1 << 63) - 1
 _PLAIN_DEFINITION: Final = re.compile(r"CREATE (TABLE|(UNIQUE )?INDEX) ", re.IGNORECASE)
 # If two databases were changed together, a journal ends with the name of another file, which SQLite may delete.
 _MASTER_JOURNAL_MAGIC: Final = b"\xd9\xd5\x05\xf9\x20\xa1\x63\xd7"
@@ -102,7 +102,7 @@ class Database:
         plan = [row[-1] for row in self._query(f"EXPLAIN QUERY PLAN {query}")]
         if len(plan) != 1 or not re.fullmatch(rf"SCAN (TABLE )?{table}", plan[0]):
             raise sqlite3.DatabaseError(f"{table} is not a plain table: rosbag2 writes only plain tables")
-        last = _BEFORE_ALL
+        last = _BEFORE_FIRST_ROW
         found = self._query(query)
         with self._explain_interruption():
             for row in found:
@@ -163,7 +163,9 @@ class Database:
         except sqlite3.OperationalError as error:
             if self._steps >= 0:
                 raise
-            raise sqlite3.OperationalError("reading it takes more work than any recording of its size") from error
+            raise sqlite3.OperationalError(
+                "a query takes more steps than in any valid recording of this size"
+            ) from error
 
     def _connect(self, path: Path, options: str) -> sqlite3.Connection:
         self._opened = (path, options)
@@ -234,5 +236,5 @@ def _has_content(journal: Path) -> bool:
             return False
         file.seek(-min(len(_MASTER_JOURNAL_MAGIC), journal.stat().st_size), os.SEEK_END)
         if file.read() == _MASTER_JOURNAL_MAGIC:
-            raise OSError("it belongs to several databases")
+            raise OSError("the journal belongs to several databases")
     return True

@@ -58,9 +58,9 @@ class SqliteStorage(Storage):
         # Rows that share pages have more data than the file.
         self._bytes_left = self._database.size
         # Of a damaged database:
-        self._damage = ""
+        self._damage_reason = ""
         self._leaves: Leaves | None = None
-        self._on_leaves: dict[int, LeafRow] = {}  # the messages that were found without the tree, by row ID
+        self._leaf_rows: dict[int, LeafRow] = {}  # the messages that were found without the tree, by row ID
         self._are_leaves_known = False
         self._found = self._last_row = 0
 
@@ -99,7 +99,7 @@ class SqliteStorage(Storage):
         read = array("q")
         try:
             if self._leaves is not None:
-                raise sqlite3.DatabaseError(self._damage)  # The tree has been found damaged before.
+                raise sqlite3.DatabaseError(self._damage_reason)  # The tree has been found damaged before.
             found = self._database.rows(
                 "messages", f"topic_id, timestamp, {column}", f"topic_id IN ({', '.join(map(str, numbers))})"
             )
@@ -128,11 +128,11 @@ class SqliteStorage(Storage):
         missing = f"{count(lost, 'message')} of {total} missing" if total else f"{lost} missing before the last one"
         unknown = "" if total else "; how many come after it is unknown"
         self.add_problem(
-            f"the database is damaged ({self._damage}): {count(self._found, 'message')} read, {missing}{unknown}"
+            f"the database is damaged ({self._damage_reason}): {count(self._found, 'message')} read, {missing}{unknown}"
         )
 
     def _note_damage(self, error: Exception) -> None:
-        self._damage = str(error)
+        self._damage_reason = str(error)
         self._leaves = self._leaves or Leaves(self._path)
 
     def _note_rows(self, rows: list[tuple[Any, ...]]) -> None:
@@ -154,13 +154,13 @@ class SqliteStorage(Storage):
         """Yield the rows of messages on the leaves of a damaged database, except those that have been read."""
         leaves = self._leaves
         for row in leaves.rows() if leaves is not None else ():
-            if not row.is_message or row.number in self._on_leaves or row.number in read:
+            if not row.is_message or row.number in self._leaf_rows or row.number in read:
                 continue
             with suppress(DamagedError):
                 _, topic, time = self._integers(row)
                 if topic in numbers:
                     data = self._values(row, 3)[0]
-                    self._on_leaves[row.number] = row
+                    self._leaf_rows[row.number] = row
                     self._last_row = max(self._last_row, row.number)
                     yield row.number, topic, time, data if with_data else len(data)
 
@@ -193,7 +193,7 @@ class SqliteStorage(Storage):
         if rows:
             yield rows
         if size > self._bytes_left:
-            raise sqlite3.DatabaseError("its messages have more bytes than the file")
+            raise sqlite3.DatabaseError("the messages have more bytes than the file")
         self._bytes_left -= size
 
     def _batches_by_topic(self, rows: list[tuple[Any, ...]], *, with_data: bool) -> Iterator[Batch]:
@@ -221,7 +221,7 @@ class SqliteStorage(Storage):
         tables = self._database.tables()
         for name in ("topics", "messages"):
             if name not in tables:
-                raise sqlite3.DatabaseError(f"no table {name}: {self._without_tables()}")
+                raise sqlite3.DatabaseError(f"no table {name}: {self._missing_tables_reason()}")
         definitions = {}
         if "message_definitions" in tables:
             columns = "topic_type, encoding, encoded_message_definition"
@@ -236,13 +236,13 @@ class SqliteStorage(Storage):
             if isinstance(number, int)
         }
 
-    def _without_tables(self) -> str:
+    def _missing_tables_reason(self) -> str:
         """Return why the tables can be missing."""
         with open_regular(self._path) as file:
             is_in_wal_mode = file.read(20)[18:] == b"\x02\x02"
         log = f"{self.path.name}-wal"
         if is_in_wal_mode and not self._path.with_name(log).exists():
-            return f"its recorder wrote to {log}, which is missing; copy this file as well"
+            return f"its recorder wrote to {log}, which is missing; copy that file as well"
         return "the file is not a recording of rosbag2"
 
     def _count_bytes(self, rows: Iterator[tuple[Any, ...]]) -> Iterator[tuple[Any, ...]]:
@@ -250,12 +250,12 @@ class SqliteStorage(Storage):
         for row in rows:
             self._bytes_left -= sum(len(value) for value in row if isinstance(value, str | bytes))
             if self._bytes_left < 0:
-                raise sqlite3.DatabaseError("its topics and definitions have more bytes than the file")
+                raise sqlite3.DatabaseError("the topics and definitions have more bytes than the file")
             yield row
 
     def read(self, position: int) -> bytes:
         """Return the data of a row."""
-        if (row := self._on_leaves.get(_row(position))) is not None:
+        if (row := self._leaf_rows.get(_row(position))) is not None:
             return self._values(row, 3)[0]
         try:
             with self._lock:
@@ -263,23 +263,23 @@ class SqliteStorage(Storage):
         except DAMAGE_ERRORS as error:
             raise DamagedError(f"the database is damaged: {error}") from None
         if data is None:
-            return self._found_on_leaves(_row(position))
+            return self._read_from_leaf(_row(position))
         return data
 
-    def _found_on_leaves(self, number: int) -> bytes:
+    def _read_from_leaf(self, number: int) -> bytes:
         """Return the data of a row that was read before, but that a search in the damaged tree does not find."""
         with self._lock:
             self._leaves = self._leaves or Leaves(self._path)
             if not self._are_leaves_known:
                 self._are_leaves_known = True
-                self._on_leaves |= {row.number: row for row in self._leaves.rows() if row.is_message}
-        if (row := self._on_leaves.get(number)) is None:
+                self._leaf_rows |= {row.number: row for row in self._leaves.rows() if row.is_message}
+        if (row := self._leaf_rows.get(number)) is None:
             raise DamagedError("the message no longer exists")
         return self._values(row, 3)[0]
 
     def head(self, position: int, size: int) -> bytes:
         """Return the first bytes of the data of a row, without reading the rest."""
-        if _row(position) in self._on_leaves:
+        if _row(position) in self._leaf_rows:
             return self.read(position)[:size]
         try:
             with self._lock:

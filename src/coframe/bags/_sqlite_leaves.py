@@ -26,8 +26,8 @@ _HEADER = 100  # bytes before the content of the first page
 _MAGIC = b"SQLite format 3\0"
 _PAGE_SIZES = [1 << power for power in range(9, 17)]
 _USUAL_PAGE_SIZE = 4096
-_TRIED_ROWS = 1000
-_MAX_TRIED_BYTES = 64 << 20
+_MAX_PROBED_ROWS = 1000
+_MAX_PROBED_BYTES = 64 << 20
 _BLOCK_PAGES = 256  # read at once
 _MAX_COLUMNS = 7  # of the tables of recordings
 _MAX_BAD_CELLS = 20  # of a page with fewer rows; the page is then left
@@ -80,12 +80,12 @@ class Leaves:
         header = self._file.read(_HEADER).ljust(_HEADER, b"\0")
         (stated,) = struct.unpack_from(">H", header, 16)
         size = 65536 if stated == 1 else stated
-        self._page = self._usable = 4096
+        self._page = self._usable_bytes = 4096
         self._bad_cells = 0  # in the current search
-        self._largest = min(path.stat().st_size, MAX_UNPACKED_BYTES)
+        self._max_message_size = min(path.stat().st_size, MAX_UNPACKED_BYTES)
         is_valid = size in _PAGE_SIZES and header.startswith(_MAGIC)
         self._page = size if is_valid else self._likely_page_size()
-        self._usable = self._page - (header[20] if is_valid and header[20] < 33 else 0)
+        self._usable_bytes = self._page - (header[20] if is_valid and header[20] < 33 else 0)
 
     def close(self) -> None:
         """Close the file."""
@@ -96,7 +96,7 @@ class Leaves:
         found = {}
         for size in _PAGE_SIZES:
             self._page = size
-            found[size] = sum(row.is_message for row in islice(self.rows(_MAX_TRIED_BYTES), _TRIED_ROWS))
+            found[size] = sum(row.is_message for row in islice(self.rows(_MAX_PROBED_BYTES), _MAX_PROBED_ROWS))
         return max(found, key=lambda size: (found[size], size == _USUAL_PAGE_SIZE))
 
     def rows(self, max_bytes: int | None = None) -> Iterator[LeafRow]:
@@ -147,7 +147,7 @@ class Leaves:
         except (IndexError, struct.error):
             return None
         found = LeafRow(row - (1 << 64) if row >> 63 else row, tuple(types), offset + position, size, header)
-        return found if header + sum(found.sizes) == size <= self._largest else None
+        return found if header + sum(found.sizes) == size <= self._max_message_size else None
 
     def integers(self, row: LeafRow, count: int) -> list[int]:
         """Return the first values of a row, which are integers, or NULL, which is returned as 0.
@@ -188,19 +188,19 @@ class Leaves:
             if following < 2:
                 raise DamagedError("a page with its data is missing")
             self._file.seek((following - 1) * self._page)
-            page = self._file.read(self._usable)
-            if len(page) < 4 + min(self._usable - 4, row.size - len(data)):
+            page = self._file.read(self._usable_bytes)
+            if len(page) < 4 + min(self._usable_bytes - 4, row.size - len(data)):
                 raise DamagedError("a page with its data is missing")
             following = int.from_bytes(page[:4], "big")
             data += page[4:]
         return bytes(data[: row.size])
 
     def _bytes_on_leaf(self, size: int) -> int:
-        most = self._usable - 35
+        most = self._usable_bytes - 35
         if size <= most:
             return size
-        least = (self._usable - 12) * 32 // 255 - 23
-        some = least + (size - least) % (self._usable - 4)
+        least = (self._usable_bytes - 12) * 32 // 255 - 23
+        some = least + (size - least) % (self._usable_bytes - 4)
         return some if some <= most else least
 
 
@@ -212,7 +212,7 @@ def has_leaves_of_recording(path: Path) -> bool:
     """
     leaves = Leaves(path)
     with closing(leaves):
-        return any(row.is_message or row.is_topic for row in leaves.rows(_MAX_TRIED_BYTES))
+        return any(row.is_message or row.is_topic for row in leaves.rows(_MAX_PROBED_BYTES))
 
 
 def _varint(data: bytes, position: int) -> tuple[int, int]:

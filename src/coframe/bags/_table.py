@@ -199,17 +199,17 @@ def _fill(columns: _Columns, rows: slice, samples: _Samples, limit: int | None) 
         columns.gaps[rows] = gaps
 
 
-def _arrow(pyarrow: Any, columns: _Columns, validity: bool) -> Any:
+def _to_arrow(pyarrow: Any, columns: _Columns, validity: bool) -> Any:
     array = pyarrow.DictionaryArray.from_arrays
-    return pyarrow.table(_named(columns, validity, lambda names: array(names.codes, names.names)))
+    return pyarrow.table(_named_columns(columns, validity, lambda names: array(names.codes, names.names)))
 
 
-def _pandas(pandas: Any, columns: _Columns, validity: bool) -> Any:
+def _to_pandas(pandas: Any, columns: _Columns, validity: bool) -> Any:
     array = pandas.Categorical.from_codes
-    return pandas.DataFrame(_named(columns, validity, lambda names: array(names.codes, names.names)))
+    return pandas.DataFrame(_named_columns(columns, validity, lambda names: array(names.codes, names.names)))
 
 
-def _named(columns: _Columns, validity: bool, names: Callable[[_NameColumn], Any]) -> dict[str, Any]:
+def _named_columns(columns: _Columns, validity: bool, names: Callable[[_NameColumn], Any]) -> dict[str, Any]:
     poses = dict(zip(POSE_COLUMNS, columns.poses, strict=True))
     return {
         "stamp_ns": columns.stamps,
@@ -222,5 +222,5 @@ def _named(columns: _Columns, validity: bool, names: Callable[[_NameColumn], Any
     }
 
 
-_FORMATS = {"arrow": _arrow, "pandas": _pandas}
+_FORMATS = {"arrow": _to_arrow, "pandas": _to_pandas}
 _PACKAGES = {"arrow": ("pyarrow", pip_install("parquet")), "pandas": ("pandas", "pip install pandas")}

@@ -79,7 +79,7 @@ class TrajectoryQuery:
             ValueError: ``start`` or ``stop`` is not a point in time.
         """
         stamps = self.stamps(recording)
-        return self._look_up(recording, stamps)
+        return self._look_up_poses(recording, stamps)
 
     def stamps(self, recording: Recording) -> NDArray[np.int64]:
         """Return the stamps of the poses, at least one, in order: (N,) nanoseconds.
@@ -98,7 +98,7 @@ class TrajectoryQuery:
         elif self.rate is not None:
             stamps = stamps_at_rate(buffer.span(self.target, self.source), start, stop, self.rate)
         else:
-            stamps = _stamps_of_samples(buffer, self.target, self.source, start, stop)
+            stamps = _sample_stamps(buffer, self.target, self.source, start, stop)
         if not stamps.size:
             raise _no_stamps_error(recording)
         return stamps
@@ -114,7 +114,7 @@ class TrajectoryQuery:
             The poses of a batch (there may be none), and the number of stamps omitted because there is no transform.
         """
         for start in range(0, len(stamps), BATCH):
-            yield self._look_up(recording, stamps[start : start + BATCH])
+            yield self._look_up_poses(recording, stamps[start : start + BATCH])
 
     def gap_text(self, recording: Recording, stamps: NDArray[np.int64]) -> str:
         """Return a message about poses in unusually long gaps; "" if there are none or `max_gap` is set."""
@@ -137,7 +137,7 @@ class TrajectoryQuery:
         found = recording.buffer.validity(self.target, self.source, stamps)
         return {"gap_ns": found.gaps, "outside_ns": found.outside}
 
-    def _look_up(self, recording: Recording, stamps: NDArray[np.int64]) -> tuple[Transform, int]:
+    def _look_up_poses(self, recording: Recording, stamps: NDArray[np.int64]) -> tuple[Transform, int]:
         may_miss = self.rate is not None or self.stamps_of is not None
         poses = recording.buffer.lookup_many(
             self.target,
@@ -153,9 +153,7 @@ class TrajectoryQuery:
         return (poses, 0) if found.all() else (poses[found], int(np.count_nonzero(~found)))
 
 
-def _stamps_of_samples(
-    buffer: Buffer, target: str, source: str, start: int | None, stop: int | None
-) -> NDArray[np.int64]:
+def _sample_stamps(buffer: Buffer, target: str, source: str, start: int | None, stop: int | None) -> NDArray[np.int64]:
     """Return the stamps that :meth:`coframe.Buffer.trajectory` uses."""
     span = buffer.span(target, source)
     first = span[0] if start is None else max(span[0], start)

@@ -122,7 +122,7 @@ class Writer:
         self._compression = compression
         self._max_size = max_size
         self._max_duration = None if max_duration is None else time.duration_ns(max_duration)
-        self._dump = yaml_dump()
+        self._dump_yaml = yaml_dump()
         compressor(compression)  # Raises before the folder is created.
         self._contents = _Contents()
         self._numbers: dict[tuple[str, str, str, str | None], int] = {}
@@ -142,7 +142,7 @@ class Writer:
                 f"{self.path} cannot be created: {error.strerror or error}",
                 hint="Choose a folder with write permission.",
             ) from None
-        self._file = self._writing(self._open)
+        self._file = self._guard_write(self._open)
         self._write_metadata()
 
     def add_topic(
@@ -172,7 +172,7 @@ class Writer:
         if key not in self._numbers:
             if len(self._numbers) >= _MAX_TOPICS:
                 raise RecordingError(
-                    f"{self.path} cannot have more than {_MAX_TOPICS} topics", hint="Record a selection of topics."
+                    f"{self.path} has the maximum of {_MAX_TOPICS} topics", hint="Record a selection of topics."
                 )
             known = definition_of(ros_type) if definition is None else definition
             if not known and ros_type not in self.undescribed:
@@ -208,13 +208,13 @@ class Writer:
             RecordingError: The operating system reports an error, such as a full disk.
         """
         if self._is_full(received):
-            self._writing(self._next_file)
+            self._guard_write(self._next_file)
             self._begin_file(received)
         elif self._first_time is None:
             self._first_time = received
         published = received if published is None or not 0 <= published < _MAX_TIME else published
         entry = self._contents.topics[topic]
-        self._put(entry, data, received, published)
+        self._write_message(entry, data, received, published)
         if entry.latched is not None:
             entry.latched.add(data, published, publisher)
         if self._file.pending >= _MAX_CHUNK_BYTES:
@@ -227,7 +227,7 @@ class Writer:
             RecordingError: The operating system reports an error, such as a full disk.
         """
         if self._file.pending:
-            self._writing(self._file.flush)
+            self._guard_write(self._file.flush)
             self._write_metadata()
 
     @property
@@ -257,7 +257,7 @@ class Writer:
             RecordingError: The operating system reports an error, such as a full disk.
         """
         try:
-            self._writing(self._file.close)
+            self._guard_write(self._file.close)
         finally:
             self._write_metadata()
 
@@ -267,7 +267,7 @@ class Writer:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def _put(self, topic: _Topic, data: bytes, received: int, published: int) -> None:
+    def _write_message(self, topic: _Topic, data: bytes, received: int, published: int) -> None:
         if topic.channel is None:
             topic.channel = self._file.add_channel(
                 topic.name,
@@ -301,7 +301,7 @@ class Writer:
         """Write the latched messages with the current receive time, so that each file can be read on its own."""
         for topic in self._contents.topics:
             for message in topic.latched.messages if topic.latched else []:
-                self._put(topic, message.data, received, message.published)
+                self._write_message(topic, message.data, received, message.published)
         self._first_time, self._first_size = received, self._file.size
 
     def _open(self) -> FileWriter:
@@ -309,13 +309,13 @@ class Writer:
         self._contents.files.append(_File(name))
         return self._format.create(self.path / name, self._compression)
 
-    def _writing(self, write: Callable[[], T]) -> T:
+    def _guard_write(self, write: Callable[[], T]) -> T:
         try:
             return write()
         except OSError as error:
-            raise self._cannot_write(error) from error
+            raise self._write_error(error) from error
 
-    def _cannot_write(self, error: OSError) -> RecordingError:
+    def _write_error(self, error: OSError) -> RecordingError:
         return RecordingError(
             f"{self.path} cannot be written: {error.strerror or error}",
             hint="Check the free space and the write permission. The messages written before this error can be read.",
@@ -328,7 +328,7 @@ class Writer:
     def _write_metadata(self) -> None:
         """Write metadata.yaml; if the disk is full, the previous version is kept."""
         self._note_file()
-        text = self._dump({"rosbag2_bagfile_information": self._metadata()})
+        text = self._dump_yaml({"rosbag2_bagfile_information": self._metadata()})
         with suppress(OSError):
             write_complete(self.path / METADATA, text.encode())
 

@@ -165,7 +165,7 @@ def _query(bag: Readable, query: TrajectoryQuery | TableQuery, part: Path) -> Qu
     if made_from and (kept := previous_result(part, str(bag), made_from)) is not None:
         return kept
     try:
-        recording = open_chosen(bag, query.transforms)
+        recording = open_with_choice(bag, query.transforms)
     except CoframeError as error:
         raise _FailedError("unreadable", error) from None
     with recording:

@@ -229,9 +229,9 @@ class _Copy:
         self, writer: Writer, merged: MergedNames, shifts: list[ClockShift | None], skipped: Counter[str]
     ) -> None:
         self._writer = writer
-        self._merged = merged
+        self._merged_names = merged
         self._shifts = shifts
-        self._skipped = skipped
+        self._skipped_counts = skipped
         self._routes: dict[Channel, _Route | None] = {}
         self._types = RecordedTypes()
         self.problems: list[str] = []
@@ -250,7 +250,7 @@ class _Copy:
         except Exception:  # noqa: BLE001 - the libraries raise errors of many kinds for damaged bytes
             converted = None
         if route is None or converted is None or received < 0:
-            self._skipped[channel.topic] += 1
+            self._skipped_counts[channel.topic] += 1
         else:
             self._writer.write(route.topic, converted, received)
 
@@ -265,7 +265,7 @@ class _Copy:
             definition, format_ = copied_definition(channel, self._types)
             type_, encoding = channel.type, channel.encoding
         topic = self._writer.add_topic(
-            self._merged.topic(recording, channel.topic),
+            self._merged_names.topic(recording, channel.topic),
             type_,
             offered_qos=from_yaml(channel.offered_qos),
             encoding=encoding,
@@ -274,7 +274,7 @@ class _Copy:
         )
         convert = bytes if converted is None else converted.convert
         stamps = None if self._shifts[recording] is None else self._stamps(channel, type_)
-        rename = self._merged.frames(recording)
+        rename = self._merged_names.frames(recording)
         if rename is None:
             return _Route(topic, convert, stamps)
         names = None if converted is None else FrameNames.of(channel, type_, self._types)

@@ -147,7 +147,7 @@ def formats() -> tuple[RecordingFormat, ...]:
     """Return all formats in the order in which they are tried: coframe's own, then those of other distributions."""
     found = list(BUILT_IN)
     for plugin, loaded in load_plugins(GROUP, report):
-        problem = _problem(loaded, found)
+        problem = _find_problem(loaded, found)
         if problem:
             report(str(plugin.error(problem)))
         else:
@@ -155,7 +155,7 @@ def formats() -> tuple[RecordingFormat, ...]:
     return tuple(found)
 
 
-def _problem(loaded: Any, others: list[RecordingFormat]) -> str:
+def _find_problem(loaded: Any, others: list[RecordingFormat]) -> str:
     """Return why an object is not the class of a new format, as the rest of a sentence; "" if it is one."""
     if not (isinstance(loaded, type) and issubclass(loaded, RecordingFormat)):
         return "is not a subclass of coframe.bags.RecordingFormat"
@@ -165,7 +165,7 @@ def _problem(loaded: Any, others: list[RecordingFormat]) -> str:
     if not (isinstance(endings, tuple) and endings and all(_SUFFIX.fullmatch(str(ending)) for ending in endings)):
         return "has no suffixes such as ('.log',), in small letters"
     if any(each.name == name for each in others):
-        return f"has the name {name!r}, which another format also has"
+        return f"has the name {name!r}, which another format already uses"
     return ""
 
 

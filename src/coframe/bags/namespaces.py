@@ -27,7 +27,7 @@ __all__ = [
     "ALL_TRANSFORMS",
     "TransformChoice",
     "TransformCollector",
-    "main_span",
+    "main_clock_span",
     "namespace_of",
     "report_mixed_clocks",
 ]
@@ -80,8 +80,8 @@ class TransformChoice:
     def selects(self, topic: str) -> bool:
         """Return whether the transforms on a topic are read."""
         topics = self.topics
-        in_namespace = self.namespace is None or _bare(self.namespace) == namespace_of(topic)
-        return in_namespace and (topics is None or _bare(topic) in map(_bare, topics))
+        in_namespace = self.namespace is None or _normalize_namespace(self.namespace) == namespace_of(topic)
+        return in_namespace and (topics is None or _normalize_namespace(topic) in map(_normalize_namespace, topics))
 
 
 ALL_TRANSFORMS: Final = TransformChoice()
@@ -206,10 +206,10 @@ class TransformCollector:
 
 def namespace_of(topic: str) -> str:
     """Return the namespace of a topic: ``""`` for ``/tf``, ``/robot1`` for ``/robot1/tf``."""
-    return _bare(topic.rpartition("/")[0])
+    return _normalize_namespace(topic.rpartition("/")[0])
 
 
-def _bare(namespace: str) -> str:
+def _normalize_namespace(namespace: str) -> str:
     stripped = namespace.strip("/")
     return f"/{stripped}" if stripped else ""
 
@@ -218,7 +218,7 @@ def _moving_edges(buffer: Buffer) -> list[EdgeInfo]:
     return [edge for edge in buffer.edges() if not edge.static and edge.samples]
 
 
-def _clocks(buffer: Buffer) -> list[list[EdgeInfo]]:
+def _group_by_clock(buffer: Buffer) -> list[list[EdgeInfo]]:
     """Return the moving edges by the clock of their stamps, the clock with the most samples first."""
     moving = _moving_edges(buffer)
     groups = group_by_clock([(edge.oldest, edge.newest) for edge in moving])
@@ -226,9 +226,9 @@ def _clocks(buffer: Buffer) -> list[list[EdgeInfo]]:
     return sorted(clocks, key=lambda clock: -sum(edge.samples for edge in clock))
 
 
-def main_span(buffer: Buffer) -> tuple[int, int] | None:
+def main_clock_span(buffer: Buffer) -> tuple[int, int] | None:
     """Return the first and last stamp on the clock that most transforms use; None without dynamic transforms."""
-    clocks = _clocks(buffer)
+    clocks = _group_by_clock(buffer)
     if not clocks:
         return None
     return min(edge.oldest for edge in clocks[0]), max(edge.newest for edge in clocks[0])
@@ -236,7 +236,7 @@ def main_span(buffer: Buffer) -> tuple[int, int] | None:
 
 def report_mixed_clocks(buffer: Buffer, problems: Problems) -> None:
     """Add a problem for each clock other than the one that most transforms use."""
-    main, *others = _clocks(buffer) or [[]]
+    main, *others = _group_by_clock(buffer) or [[]]
     for clock in others:
         names = ", ".join(f"{edge.parent} -> {edge.child}" for edge in clock[:5])
         problems.add(

@@ -23,7 +23,7 @@ from coframe.bags._narrowing import run_query
 from coframe.bags._recorded_message import RecordedMessage, RecordedTopic
 from coframe.bags._table import edge_table
 from coframe.bags._time_window import ALL_TIME, TimeWindow
-from coframe.bags.namespaces import TransformChoice, main_span
+from coframe.bags.namespaces import TransformChoice, main_clock_span
 from coframe.bags.tables import TableQuery
 from coframe.bags.tables.columns import FieldSource, PathSource, column
 from coframe.bags.tables.topic_poses import topic_poses
@@ -108,10 +108,10 @@ def open_bag(
     """
     choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep, transforms)
     window = TimeWindow(start, stop)
-    return open_chosen(path, choice, window=window, progress=progress, on_transforms=on_transforms)
+    return open_with_choice(path, choice, window=window, progress=progress, on_transforms=on_transforms)
 
 
-def open_chosen(
+def open_with_choice(
     path: Location | BytesLike | BinaryIO,
     choice: TransformChoice,
     *,
@@ -129,7 +129,7 @@ def open_chosen(
 
 def _reopened(path: Readable, choice: TransformChoice, window: TimeWindow) -> Recording:
     """Open the recording of another process."""
-    return open_chosen(path, choice, window=window)
+    return open_with_choice(path, choice, window=window)
 
 
 class Recording:
@@ -231,7 +231,7 @@ class Recording:
     @cached_property
     def span(self) -> tuple[int, int]:
         """:attr:`start` and :attr:`end`."""
-        return main_span(self.buffer) or (self.received_start, self.received_end)
+        return main_clock_span(self.buffer) or (self.received_start, self.received_end)
 
     def messages(
         self, topic: str, start: StampLike | None = None, stop: StampLike | None = None
@@ -265,7 +265,7 @@ class Recording:
         Raises:
             RecordingError: The topic does not exist.
         """
-        return self._read(self._index.find_topic(topic), row)
+        return self._read_message(self._index.find_topic(topic), row)
 
     def find_topic(self, topic: str) -> str:
         """Return the full name of a topic whose leading slash may be missing.
@@ -355,7 +355,7 @@ class Recording:
         """
         name = self._index.find_topic(topic)
         row = self._index.newest_row(name, time.stamp_ns(stamp))
-        return None if row is None else self._read(name, row)
+        return None if row is None else self._read_message(name, row)
 
     def first_frame(self, topic: str) -> str:
         """Return the frame_id in the header of a topic's first message, as published; "" if it has none.
@@ -381,9 +381,9 @@ class Recording:
         """
         name = self._index.find_topic(topic)
         numbers = list(range(len(self._index.received(name))) if rows is None else rows)
-        return [self._frame_of(name, row) for row in numbers] if self.may_have_header(name) else [""] * len(numbers)
+        return [self._read_frame(name, row) for row in numbers] if self.may_have_header(name) else [""] * len(numbers)
 
-    def _frame_of(self, name: str, row: int) -> str:
+    def _read_frame(self, name: str, row: int) -> str:
         channel = self._index.channel(name, row)
         header = self.types.peek_header(channel, self._index.head(name, row, HEADER_BYTES))
         if header is not None:
@@ -598,11 +598,11 @@ class Recording:
 
     def _read_all(self, name: str, rows: NDArray[np.intp]) -> Iterator[RecordedMessage]:
         for row in rows.tolist():
-            message = self._read(name, row)
+            message = self._read_message(name, row)
             if message is not None:
                 yield message
 
-    def _read(self, name: str, row: int) -> RecordedMessage | None:
+    def _read_message(self, name: str, row: int) -> RecordedMessage | None:
         """Return one message; None if it can no longer be read, which is added to the problems."""
         data = self._index.read(name, row)
         if data is None:

@@ -250,7 +250,7 @@ class ChunkedStorage(Storage):
         self._offsets: list[int] = []
         self._counted: set[int] = set()  # offsets of chunks
         self._unpacked_bytes = 0
-        self._unpacked: OrderedDict[int, bytes] = OrderedDict()
+        self._unpacked_chunks: OrderedDict[int, bytes] = OrderedDict()
 
     @abstractmethod
     def unpack_chunk(self, offset: int) -> bytes:
@@ -273,7 +273,7 @@ class ChunkedStorage(Storage):
         if not 0 <= offset < self.size:
             return b""
         if size > MAX_UNPACKED_BYTES:
-            raise DamagedError(f"a record claims to have {size} bytes, more than the limit of {MAX_UNPACKED_BYTES}")
+            raise DamagedError(f"a record claims to have {size} bytes; the maximum is {MAX_UNPACKED_BYTES}")
         if isinstance(self.path, Source):
             try:
                 return self.path.read(offset, size)
@@ -315,21 +315,21 @@ class ChunkedStorage(Storage):
         number, offset = divmod(position, 1 << _OFFSET_BITS)
         if number == 0:
             return bytes(self.payload(None, offset))
-        return bytes(self.payload(self._chunk(number), offset))
+        return bytes(self.payload(self._unpack_cached(number), offset))
 
     def close(self) -> None:
         """Close the file."""
         self._file.close()
-        self._unpacked.clear()
+        self._unpacked_chunks.clear()
 
-    def _chunk(self, number: int) -> bytes:
+    def _unpack_cached(self, number: int) -> bytes:
         with self._lock:
-            if number in self._unpacked:
-                self._unpacked.move_to_end(number)
-                return self._unpacked[number]
+            if number in self._unpacked_chunks:
+                self._unpacked_chunks.move_to_end(number)
+                return self._unpacked_chunks[number]
         data = self.unpack_chunk(self._offsets[number - 1])
         with self._lock:
-            self._unpacked[number] = data
-            while len(self._unpacked) > 1 and sum(map(len, self._unpacked.values())) > _CACHE_SIZE:
-                self._unpacked.popitem(last=False)
+            self._unpacked_chunks[number] = data
+            while len(self._unpacked_chunks) > 1 and sum(map(len, self._unpacked_chunks.values())) > _CACHE_SIZE:
+                self._unpacked_chunks.popitem(last=False)
         return data

@@ -14,7 +14,7 @@ _NUMBER = re.compile(r"(\d+)(?:\.(\d*))?", re.ASCII)
 _OFFSET = re.compile(r"([+-]?)\s*(\d.*[a-z])", re.ASCII)
 _ISO = re.compile(r"(\d{4}-\d\d-\d\d[T ]\d\d:\d\d(?::\d\d)?)(?:\.(\d*))?\s*(Z|[+-]\d\d:?\d\d)?", re.ASCII)
 _HINT = (
-    'write a stamp (1666859837.363141536), an offset from the start ("10s") or the end ("-2s"), '
+    'Write a stamp (1666859837.363141536), an offset from the start ("10s") or the end ("-2s"), '
     'or an ISO 8601 time ("2022-10-27T08:43:57Z")'
 )
 
@@ -46,7 +46,7 @@ def parse_time_point(text: str, span: tuple[int, int]) -> int:
     if match := _NUMBER.fullmatch(text):
         whole = int(match[1][:30])
         is_nanoseconds = match[2] is None and whole * time.SECOND >= 2**63
-        return _check_range(text, whole if is_nanoseconds else whole * time.SECOND + _fraction(text, match[2]))
+        return _check_range(text, whole if is_nanoseconds else whole * time.SECOND + _parse_fraction(text, match[2]))
     if match := _OFFSET.fullmatch(text):
         try:
             offset = time.duration_ns(match[2])
@@ -54,18 +54,18 @@ def parse_time_point(text: str, span: tuple[int, int]) -> int:
             raise ValueError(f"{error}; {_HINT}") from None
         return _check_range(text, span[1] - offset if match[1] == "-" else span[0] + offset)
     if match := _ISO.fullmatch(text):
-        return _check_range(text, _iso(text, match))
-    raise ValueError(f"{text[:60]!r} is not a point in time: {_HINT}")
+        return _check_range(text, _parse_iso(text, match))
+    raise ValueError(f"{text[:60]!r} is not a point in time. {_HINT}")
 
 
-def _fraction(text: str, digits: str | None) -> int:
+def _parse_fraction(text: str, digits: str | None) -> int:
     digits = (digits or "").rstrip("0")
     if len(digits) > 9:
         raise ValueError(f"{text!r} has more than nine decimals; the resolution is one nanosecond")
     return int(digits.ljust(9, "0"))
 
 
-def _iso(text: str, match: re.Match[str]) -> int:
+def _parse_iso(text: str, match: re.Match[str]) -> int:
     if match[3] is None:
         raise ValueError(f"{text!r} has no time zone: add Z for UTC, or an offset such as +02:00")
     zone = "+00:00" if match[3] == "Z" else match[3]
@@ -74,10 +74,10 @@ def _iso(text: str, match: re.Match[str]) -> int:
         whole = datetime.datetime.fromisoformat(f"{match[1].replace(' ', 'T')}{zone}")
     except ValueError as error:
         raise ValueError(f"{text!r} is not a point in time: {error}") from None
-    return time.stamp_ns(whole) + _fraction(text, match[2])
+    return time.stamp_ns(whole) + _parse_fraction(text, match[2])
 
 
 def _check_range(text: str, nanoseconds: int) -> int:
     if not -(2**63) <= nanoseconds < 2**63:
-        raise ValueError(f"{text[:60]!r} does not fit into 64-bit nanoseconds, which end in the year 2262")
+        raise ValueError(f"{text[:60]!r} is after the year 2262, the last one that fits into 64-bit nanoseconds")
     return nanoseconds

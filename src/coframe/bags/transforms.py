@@ -25,10 +25,19 @@ __all__ = ["Ingest", "has_unknown_encoding", "ingest_for", "is_static"]
 
 # Offset of the first parent's name in a TFMessage: after the count, the stamp, the length of the name, and the
 # encapsulation (CDR) or the sequence number (ROS 1).
-_FIRST_PARENT = 20
+_FIRST_PARENT_OFFSET = 20
 _EARLIEST, _LATEST = -(1 << 63), (1 << 63) - 1  # nanoseconds
 # The exceptions that the decoding functions below raise for damaged bytes.
-_DAMAGE = (struct.error, ValueError, TypeError, KeyError, IndexError, AttributeError, OverflowError, RecursionError)
+_DAMAGE_ERRORS = (
+    struct.error,
+    ValueError,
+    TypeError,
+    KeyError,
+    IndexError,
+    AttributeError,
+    OverflowError,
+    RecursionError,
+)
 
 
 class Ingest:
@@ -57,7 +66,7 @@ class Ingest:
         """Return whether the first parent in any TFMessage begins with a slash; False for other types."""
         if not isinstance(self._decode, str):
             return False
-        offsets = messages.starts + np.uint64(_FIRST_PARENT)
+        offsets = messages.starts + np.uint64(_FIRST_PARENT_OFFSET)
         offsets = offsets[offsets < messages.ends]
         return bool((np.frombuffer(messages.data, dtype=np.uint8)[offsets] == ord("/")).any())
 
@@ -74,8 +83,8 @@ class Ingest:
         for message in messages.each():
             try:
                 for transform in self._transforms(self._decode, message):
-                    self._set(buffer, transform)
-            except _DAMAGE as error:
+                    self._store(buffer, transform)
+            except _DAMAGE_ERRORS as error:
                 damaged, reason = damaged + 1, reason or f"{type(error).__name__}: {error}"
         return damaged, reason
 
@@ -88,7 +97,7 @@ class Ingest:
         for number, message in enumerate(messages.each()):
             try:
                 rows += [(number, transform) for transform in self._transforms(self._decode, message)]
-            except _DAMAGE:
+            except _DAMAGE_ERRORS:
                 damaged += 1
         numbers: dict[str, int] = {}
         pairs = [[numbers.setdefault(name, len(numbers)) for name in (row.parent, row.child)] for _, row in rows]
@@ -111,14 +120,14 @@ class Ingest:
             if transform.stamp is None and not self.static:
                 raise ValueError("a transform has no timestamp")
             if not _EARLIEST <= (transform.stamp or 0) <= _LATEST:
-                raise ValueError("a stamp is beyond the range of ROS times")
+                raise ValueError("a stamp is outside the range of ROS time")
             for name in (transform.parent, transform.child):
                 if not isinstance(name, str):  # JSON can contain anything
                     raise TypeError("a frame name is not a string")
                 name.encode()  # fails for half of a surrogate pair, which is not a character
         return transforms
 
-    def _set(self, buffer: Buffer, transform: StampedValues) -> None:
+    def _store(self, buffer: Buffer, transform: StampedValues) -> None:
         names = (transform.parent, transform.child)
         parent, child = names if self._renaming is None else map(self._renaming, names)
         stamp = transform.stamp or 0
@@ -178,8 +187,8 @@ def _protobuf_one(data: bytes | memoryview) -> Iterator[StampedValues]:
     """Decode foxglove.FrameTransform: fields 1 to 5 are timestamp, parent, child, translation and rotation."""
     parts = dict(_fields(data))
     t, q = (dict(_fields(parts.get(number, b""))) for number in (4, 5))
-    x, y, z = (_double(t.get(number)) for number in (1, 2, 3))
-    qx, qy, qz, qw = (_double(q.get(number)) for number in (1, 2, 3, 4))
+    x, y, z = (_read_double(t.get(number)) for number in (1, 2, 3))
+    qx, qy, qz, qw = (_read_double(q.get(number)) for number in (1, 2, 3, 4))
     names = [str(parts.get(number, b""), "utf-8") for number in (2, 3)]
     stamp = _protobuf_time(parts[1]) if 1 in parts else None
     yield StampedValues(names[0], names[1], stamp, (x, y, z, qx, qy, qz, qw))
@@ -192,7 +201,7 @@ def _protobuf_time(data: Any) -> int:
     return int(seconds * time.SECOND + fields.get(2, 0))
 
 
-def _double(value: Any) -> float:
+def _read_double(value: Any) -> float:
     return 0.0 if value is None else float(struct.unpack("<d", value)[0])
 
 
@@ -221,7 +230,7 @@ def _varint(data: Any, position: int) -> tuple[int, int]:
         value |= (byte & 0x7F) << shift
         if byte < 0x80:
             return value, position
-    raise ValueError("an integer of more than 64 bits")
+    raise ValueError("an integer has more than 64 bits")
 
 
 # By encoding and type. In CDR, foxglove_msgs/FrameTransforms has the layout of a TFMessage.

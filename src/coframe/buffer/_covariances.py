@@ -112,7 +112,7 @@ def covariances_of(buffer: _core.Buffer) -> dict[str, EdgeCovariances]:
     return known
 
 
-def store(
+def store_covariances(
     buffer: _core.Buffer, child: str, pose: Transform, stamps: ArrayLike | StampLike | None, *, static: bool
 ) -> None:
     """Store the covariances of a transform or a batch that has some."""
@@ -130,7 +130,7 @@ def set_covariance(buffer: _core.Buffer, parent: str, child: str, pose: Any, *, 
     check_frames(parent, child, given)
     if given.covariance is None:
         raise InvalidArgumentException.with_details(
-            f"the pose of {child!r} in {parent!r} has no covariance: none is given, or all of its numbers are zero",
+            f"the pose of {child!r} in {parent!r} has no covariance: it is None, or all of its numbers are zero",
             target=parent,
             source=child,
             hint="Edges without a covariance count as exact, so nothing needs to be stored.",
@@ -143,7 +143,7 @@ def set_covariance(buffer: _core.Buffer, parent: str, child: str, pose: Any, *, 
             source=child,
             hint="Pass a pose with a stamp, or static=True if the covariance never changes.",
         )
-    store(buffer, child, given, stamps, static=static)
+    store_covariances(buffer, child, given, stamps, static=static)
 
 
 def pack(buffer: _core.Buffer) -> bytes:
@@ -202,7 +202,7 @@ def with_covariance(buffer: _core.Buffer, pose: Transform, edge_pose: Callable[[
             matrices = known[child].at(times)
             matrices = matrices if pose.shape else matrices[0]
             own = step if child == lower else step.inverse()  # the pose of the child in its parent
-            own = with_body_covariance(_without_nan(own), matrices)
+            own = with_body_covariance(_fill_missing_rows(own), matrices)
             step = own if child == lower else own.inverse()
         else:
             exact.append(child)
@@ -236,7 +236,7 @@ def _edges(buffer: _core.Buffer, pose: Transform, times: NDArray[np.int64]) -> I
         yield upper, lower, lower if state is not None and state[1] == upper else upper
 
 
-def _without_nan(pose: Transform) -> Transform:
+def _fill_missing_rows(pose: Transform) -> Transform:
     """Return poses whose missing rows are the identity; the caller marks them in its result."""
     missing = ~np.isfinite(pose.translation).all(axis=-1)
     if not np.any(missing):

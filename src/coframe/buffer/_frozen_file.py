@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
     from coframe.buffer import Buffer
 
-__all__ = ["BLOCK_SIZE", "Header", "content_of", "damaged", "opened", "read_covariances", "read_header", "save"]
+__all__ = ["BLOCK_SIZE", "Header", "content_of", "damaged", "open_file", "read_covariances", "read_header", "save"]
 
 _MAGIC = b"\x89CFZ\r\n\x1a\n"
 _VERSION = 1
@@ -146,7 +146,7 @@ def read_covariances(path: Path, file: BinaryIO, header: Header) -> bytes:
 
 
 @contextlib.contextmanager
-def opened(path: Path) -> Iterator[BinaryIO]:
+def open_file(path: Path) -> Iterator[BinaryIO]:
     """Open a file for reading.
 
     Raises:
@@ -188,9 +188,9 @@ def read_header(path: Path | str, file: BinaryIO, size: int) -> Header:
             hint="Save the buffer again with this version of coframe, or install the version that wrote the file.",
         )
     if zlib.crc32(data[: _HEADER.size]) != _CRC.unpack_from(data, _HEADER.size)[0]:
-        raise damaged(path, "the checksum of its header is wrong")
+        raise damaged(path, "the checksum of the header is wrong")
     if header.samples % _PAGE or header.samples < _PAGE:
-        raise damaged(path, "its samples do not begin at a page")
+        raise damaged(path, "the samples do not begin at a page boundary")
     if max(header.samples + header.samples_size, header.table + header.table_size) > size:
         raise damaged(path, "it is truncated")
     return header

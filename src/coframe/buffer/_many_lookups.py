@@ -153,7 +153,7 @@ class Buffer(_core.Buffer):
         times = np.array(stamps_of(stamps), ndmin=1)
         if times.ndim != 1:
             raise ValueError(f"stamps must have shape (N,), not {times.shape}")
-        rows = out if out is not None and _is_rows(out, times.size) else np.empty((times.size, 7))
+        rows = out if out is not None and _is_row_array(out, times.size) else np.empty((times.size, 7))
         twists = np.empty((times.size, 6)) if twist else None
         extrapolated = np.empty_like(times) if extrapolate is not None else None
         limit = gaps.gap_limit(max_gap, on_gap)
@@ -167,7 +167,7 @@ class Buffer(_core.Buffer):
         if limit is None:
             gaps.note_gaps(self, target, source, times)
         else:
-            kept = self._outside_gaps(target, source, times, limit, on_gap)
+            kept = self._find_outside_gaps(target, source, times, limit, on_gap)
             if on_gap == "omit":
                 rows, times = rows[kept], times[kept]
                 twists = None if twists is None else twists[kept]
@@ -183,12 +183,12 @@ class Buffer(_core.Buffer):
             out[...] = batch.matrix
         if covariance:
             batch = _covariances.with_covariance(
-                self, batch, lambda a, b: self._lookup_quietly(a, b, times, "nan", extrapolate, hold=hold)
+                self, batch, lambda a, b: self._lookup_without_gap_warning(a, b, times, "nan", extrapolate, hold=hold)
             )
         result = batch if out is None else out
         return result if twists is None else (result, twists)
 
-    def _outside_gaps(
+    def _find_outside_gaps(
         self, target: str, source: str, stamps: NDArray[np.int64], limit: int, on_gap: OnGap
     ) -> NDArray[np.bool_]:
         """Return which times do not lie in a gap that is longer than the limit, or raise for the first one."""
@@ -269,17 +269,17 @@ class Buffer(_core.Buffer):
         stamps = np.unique(np.concatenate([[first], inside, [last]]).astype(np.int64)) if first <= last else inside
         gaps.gap_limit(max_gap, on_gap)  # Invalid values are refused before the work.
         if max_translation is None and max_rotation is None:
-            path = self._lookup_quietly(target, source, stamps)
+            path = self._lookup_without_gap_warning(target, source, stamps)
         else:
             steps = StepLimits(max_translation, max_rotation)
-            path = steps.resample(lambda times: self._lookup_quietly(target, source, times), stamps)
+            path = steps.resample(lambda times: self._lookup_without_gap_warning(target, source, times), stamps)
         if path.stamps is not None and max_gap is not None:
             return self.lookup_many(target, source, path.stamps, max_gap=max_gap, on_gap=on_gap)
         if path.stamps is not None:
             gaps.note_gaps(self, target, source, path.stamps)
         return path
 
-    def _lookup_quietly(
+    def _lookup_without_gap_warning(
         self,
         target: str,
         source: str,
@@ -336,7 +336,7 @@ def _freeze(rows: Array, times: NDArray[np.int64], extrapolated: NDArray[np.int6
         extrapolated.flags.writeable = False
 
 
-def _is_rows(out: Array, count: int) -> bool:
+def _is_row_array(out: Array, count: int) -> bool:
     """Return whether poses can be written to `out` directly; False for matrices."""
     if out.dtype == np.float64 and out.shape in {(count, 7), (count, 4, 4)}:
         return out.ndim == 2 and out.flags.c_contiguous and out.flags.writeable

@@ -45,7 +45,7 @@ def check_single(parent: str, child: str, transform: Transform, stamp: StampLike
         )
 
 
-def rows_of(
+def check_rows(
     parent: str, child: str, stamps: ArrayLike | None, poses: Transform | ArrayLike
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """Return the stamps, shape (N,), and poses, shape (N, 7), that `set_many` stores.
@@ -81,7 +81,7 @@ def check_not_frozen(buffer: _core.Buffer, parent: str, child: str) -> None:
         )
 
 
-def rejected_row(
+def row_rejection_error(
     parent: str, child: str, row: int, rotation: NDArray[np.float64], text: str
 ) -> InvalidArgumentException:
     """Return the error for a row of `set_many` that tf2 rejects; a zero quaternion is named as such.
@@ -89,7 +89,7 @@ def rejected_row(
     tf2 reports a zero quaternion as NaN, which is the result of its normalization.
     """
     if rotation.any():
-        return rejected(parent, child, f"row {row}: {text}")
+        return rejection_error(parent, child, f"row {row}: {text}")
     return InvalidArgumentException.with_details(
         f"row {row}: the quaternion of {parent!r} -> {child!r} is zero, which is not a rotation",
         target=parent,
@@ -99,7 +99,7 @@ def rejected_row(
     )
 
 
-def rejected(parent: str, child: str, text: str) -> InvalidArgumentException:
+def rejection_error(parent: str, child: str, text: str) -> InvalidArgumentException:
     """Return the error for a transform that tf2 rejects, with tf2's message."""
     return InvalidArgumentException.with_details(
         text, target=parent, source=child, edge=(parent, child), hint=_REJECTION_HINT

@@ -73,7 +73,9 @@ async def transform_or_timeout(
         cancel()
 
 
-def timed_out(target: str, source: str, timeout: DurationLike | None, error: TransformException) -> TimeoutException:
+def timeout_error(
+    target: str, source: str, timeout: DurationLike | None, error: TransformException
+) -> TimeoutException:
     """Return the error for a transform that did not become available in time."""
     length = "" if timeout is None else f" after {duration(time.duration_ns(timeout))}"
     return TimeoutException.with_details(

@@ -8,8 +8,15 @@ from typing import TYPE_CHECKING, Any
 
 from coframe import _core, errors, time
 from coframe.buffer import _covariances, _frozen_file, _many_lookups
-from coframe.buffer._storing import check_not_frozen, check_single, rejected, rejected_row, rows_of, stamp_of
-from coframe.buffer._waiting import CallbackHandle, timed_out, transform_or_timeout
+from coframe.buffer._storing import (
+    check_not_frozen,
+    check_rows,
+    check_single,
+    rejection_error,
+    row_rejection_error,
+    stamp_of,
+)
+from coframe.buffer._waiting import CallbackHandle, timeout_error, transform_or_timeout
 from coframe.buffer.dispatcher import Dispatcher
 from coframe.buffer.edge_info import FrameInfo, edge_infos, edge_table
 from coframe.errors import TransformException
@@ -112,7 +119,7 @@ class Buffer(_many_lookups.Buffer):
         facts = (parent, child, stamp_of(transform, stamp), *transform.values)
         errors_found = [text for level, text in _core.insert_texts(refusals, *facts, authority) if level == "error"]
         if errors_found:
-            raise rejected(parent, child, "\n".join(errors_found))
+            raise rejection_error(parent, child, "\n".join(errors_found))
         return False
 
     def _set(
@@ -124,7 +131,7 @@ class Buffer(_many_lookups.Buffer):
         when = stamp_of(transform, stamp)
         refusals = self._set_values(parent, child, when, *transform.values, static, authority)
         if refusals == 0 and transform.covariance is not None:
-            _covariances.store(self, child, transform, when, static=static)
+            _covariances.store_covariances(self, child, transform, when, static=static)
         return refusals
 
     def set_many(
@@ -158,17 +165,17 @@ class Buffer(_many_lookups.Buffer):
                 both cases, no sample is stored.
             ValueError: The shapes do not match.
         """
-        times, values = rows_of(parent, child, stamps, poses)
+        times, values = check_rows(parent, child, stamps, poses)
         check_not_frozen(self, parent, child)
         rejections, stored, row = self._set_rows(parent, child, times, values, static, authority)
         if rejections:
             x, y, z, qx, qy, qz, qw = values[row].tolist()
             texts = _core.insert_texts(rejections, parent, child, int(times[row]), x, y, z, qx, qy, qz, qw, authority)
-            raise rejected_row(parent, child, row, values[row, 3:], "\n".join(line for _, line in texts))
+            raise row_rejection_error(parent, child, row, values[row, 3:], "\n".join(line for _, line in texts))
         if covariance is not None:
             poses = Transform(values[:, :3], values[:, 3:], covariance=covariance)
         if isinstance(poses, Transform) and poses.covariance is not None and times.size:
-            _covariances.store(self, child, poses, times, static=static)
+            _covariances.store_covariances(self, child, poses, times, static=static)
         return stored
 
     def set_covariance(self, parent: str, child: str, pose: Transform | Any, *, static: bool = False) -> None:
@@ -257,7 +264,7 @@ class Buffer(_many_lookups.Buffer):
         try:
             return self.lookup(target, source, stamp, timeout=sys.maxsize if timeout is None else timeout)
         except TransformException as error:
-            raise timed_out(target, source, timeout, error) from error
+            raise timeout_error(target, source, timeout, error) from error
 
     async def wait_async(
         self, target: str, source: str, stamp: StampLike | None = None, *, timeout: DurationLike | None = None
@@ -282,7 +289,7 @@ class Buffer(_many_lookups.Buffer):
         try:
             return self.lookup(target, source, stamp)
         except TransformException as error:
-            raise timed_out(target, source, timeout, error) from error
+            raise timeout_error(target, source, timeout, error) from error
 
     def why(
         self, target: str, source: str, at: StampLike | None = None, *, now: StampLike | None = None
@@ -324,7 +331,7 @@ class Buffer(_many_lookups.Buffer):
                 callback(edge)
 
         start = lambda mailbox, token: _core.watch(self, mailbox, token, child or "")  # noqa: E731 - one expression
-        return CallbackHandle(self._dispatcher.watch(start, report, of_user=True))
+        return CallbackHandle(self._dispatcher.watch(start, report, is_user_watch=True))
 
     @property
     def interpolation(self) -> Interpolation:

@@ -44,7 +44,7 @@ class _Wait:
 class _Watch:
     native: _core.Watch
     on_change: Callable[[list[str]], object]
-    of_user: bool
+    is_user_watch: bool
 
 
 class Dispatcher:
@@ -68,7 +68,7 @@ class Dispatcher:
         self._entries: dict[int, _Wait | _Watch] = {}
         self._deadlines: list[tuple[int, int]] = []  # A heap of (monotonic time in nanoseconds, token).
         self._thread: threading.Thread | None = None
-        self._turn = threading.RLock()  # Held from an insertion until its tokens are taken.
+        self._run_lock = threading.RLock()  # Held from an insertion until its tokens are taken.
         weakref.finalize(self, self._mailbox.put, _WAKE_UP).atexit = False
 
     def end(self) -> None:
@@ -83,7 +83,7 @@ class Dispatcher:
 
     def user_watches(self) -> int:
         """Return the number of watches registered by the user of the buffer."""
-        return sum(isinstance(entry, _Watch) and entry.of_user for entry in self._entries.values())
+        return sum(isinstance(entry, _Watch) and entry.is_user_watch for entry in self._entries.values())
 
     @property
     def is_idle(self) -> bool:
@@ -107,26 +107,28 @@ class Dispatcher:
         native = start(self._mailbox, token)
         found = native.transform()
         if found is not None:
-            _call(on_end, found)
+            _call_safely(on_end, found)
         else:
             self._add(token, _Wait(native, on_end), timeout)
             self._end_if_answered(token)  # The token may have been taken before its entry existed.
         return lambda: self._remove(token)
 
-    def watch(self, start: StartWatch, on_change: Callable[[list[str]], object], *, of_user: bool = False) -> Cancel:
+    def watch(
+        self, start: StartWatch, on_change: Callable[[list[str]], object], *, is_user_watch: bool = False
+    ) -> Cancel:
         """Call `on_change` with the child frames of the edges that have changed, after every change.
 
         Args:
             start: Starts the native watch.
             on_change: Called with the frames.
-            of_user: Whether it was registered by the user of the buffer; forked children then log that it is not
+            is_user_watch: Whether it was registered by the user of the buffer; forked children then log that it is not
                 called.
 
         Returns:
             A function that cancels the watch.
         """
         token = next(self._tokens)
-        self._add(token, _Watch(start(self._mailbox, token), on_change, of_user), None)
+        self._add(token, _Watch(start(self._mailbox, token), on_change, is_user_watch), None)
         self._mailbox.put(token)  # The token may have been taken before its entry existed.
         return lambda: self._remove(token)
 
@@ -136,7 +138,7 @@ class Dispatcher:
         if self.is_idle:
             yield
             return
-        with self._turn:
+        with self._run_lock:
             yield
             tokens = self._mailbox.take()
         self._process(tokens, watches=False)
@@ -199,15 +201,15 @@ class Dispatcher:
         entry = self._entries.get(token)
         found = entry.native.transform() if isinstance(entry, _Wait) else None
         if isinstance(entry, _Wait) and found is not None and self._remove(token) is not None:
-            _call(entry.on_end, found)
+            _call_safely(entry.on_end, found)
 
     @staticmethod
     def _report_changes(watch: _Watch) -> None:
         changed = watch.native.take()
         if changed:
-            _call(watch.on_change, changed)
+            _call_safely(watch.on_change, changed)
 
-    def _end_overdue(self) -> None:
+    def _end_expired_waits(self) -> None:
         now = time.monotonic_ns()
         while True:
             with self._lock:
@@ -216,18 +218,18 @@ class Dispatcher:
                 _, token = heapq.heappop(self._deadlines)
             entry = self._remove(token)
             if isinstance(entry, _Wait):
-                _call(entry.on_end, entry.native.transform())
+                _call_safely(entry.on_end, entry.native.transform())
 
-    def turn(self) -> int | None:
+    def run_iteration(self) -> int | None:
         """Run one iteration of the thread.
 
         Returns:
             How long the thread may sleep, in nanoseconds (negative: without a limit); None if the thread may end.
         """
-        with self._turn:
+        with self._run_lock:
             tokens = self._mailbox.take()
         self._process(tokens, watches=True)
-        self._end_overdue()
+        self._end_expired_waits()
         with self._lock:
             if not self._entries:
                 self._thread = None
@@ -243,10 +245,10 @@ def _run(reference: weakref.ref[Dispatcher], mailbox: _core.Mailbox) -> None:
     while True:
         dispatcher = reference()
         try:
-            pause = dispatcher.turn() if dispatcher is not None else None
+            pause = dispatcher.run_iteration() if dispatcher is not None else None
         except BaseException:  # noqa: BLE001 - sys.exit() in one callback must not end the thread of all callbacks
             _log.exception(
-                "A buffer callback raised an exception that would end the thread of all callbacks; it is ignored"
+                "A buffer callback raised an exception that would end the callback thread; the exception is ignored"
             )
             pause = 0
         del dispatcher
@@ -255,7 +257,7 @@ def _run(reference: weakref.ref[Dispatcher], mailbox: _core.Mailbox) -> None:
         mailbox.wait(pause)
 
 
-def _call(callback: Callable[[Any], object], argument: Any) -> None:
+def _call_safely(callback: Callable[[Any], object], argument: Any) -> None:
     try:
         callback(argument)
     except Exception:  # noqa: BLE001 - an exception in a callback of the user must not prevent the next callbacks

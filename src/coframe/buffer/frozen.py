@@ -23,7 +23,7 @@ __all__ = ["FrozenBuffer", "load", "restored"]
 
 MAX_COPIED = 1 << 20  # bytes; copying them takes half a millisecond
 
-_LOSS = (
+_LOSS_TEXT = (
     "{path} was truncated by another program while it was in use. Load it again. To replace a file that is in use, "
     "save the buffer under its name, or use cp --remove-destination."
 )
@@ -58,10 +58,10 @@ class FrozenBuffer(Buffer):
             FrozenFileError: It is damaged.
         """
         self._memory = memory
-        self._guard = _core.MemoryGuard(self._memory, _LOSS.format(path=self._path))
+        self._guard = _core.MemoryGuard(self._memory, _LOSS_TEXT.format(path=self._path))
         if zlib.crc32(memoryview(self._memory)[header.table : header.table + header.table_size]) != header.table_crc:
             self._guard.check()
-            raise damaged(self._path, "the checksum of its table is wrong")
+            raise damaged(self._path, "the checksum of the table is wrong")
         _core.Buffer.__init__(self, header.cache)
         positions = (header.table, header.table_size, header.samples, header.samples_size)
         if reason := _core.become_frozen(self, self._guard, *positions):
@@ -81,7 +81,7 @@ class FrozenBuffer(Buffer):
         memory = mmap.mmap(-1, size)
         file.seek(0)
         if memory.write(file.read(size)) != size:
-            raise damaged(self._path, "it was truncated while it was being read")
+            raise damaged(self._path, "the file was truncated while it was read")
         return memory
 
     @property
@@ -102,7 +102,7 @@ class FrozenBuffer(Buffer):
                 crc = zlib.crc32(memory[position : min(position + BLOCK_SIZE, end)], crc)
         if crc != self._header.samples_crc:
             self._guard.check()
-            raise damaged(self._path, "the checksum of its samples is wrong")
+            raise damaged(self._path, "the checksum of the samples is wrong")
 
     def __reduce__(self) -> tuple[Any, ...]:
         return load, (str(self._path),)

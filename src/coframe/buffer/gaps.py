@@ -38,7 +38,7 @@ __all__ = [
 
 OnGap: TypeAlias = Literal["raise", "nan", "omit"]
 GAP_CHOICES = ("raise", "nan", "omit")
-_FIRST, _LAST = np.iinfo(np.int64).min + 1, np.iinfo(np.int64).max
+_MIN_STAMP, _MAX_STAMP = np.iinfo(np.int64).min + 1, np.iinfo(np.int64).max
 _MIN_INTERVALS = 10  # With fewer, the usual period of an edge is not known.
 
 
@@ -192,7 +192,7 @@ def _moving_edges(buffer: _core.Buffer, target: str, source: str) -> list[tuple[
     for one, other in itertools.pairwise(frames):
         state = buffer._edge_at(one, 0)
         child, parent = (one, other) if state is not None and state[1] == other else (other, one)
-        samples = np.frombuffer(buffer._stamps_between(parent, child, _FIRST, _LAST), np.int64)
+        samples = np.frombuffer(buffer._stamps_between(parent, child, _MIN_STAMP, _MAX_STAMP), np.int64)
         if samples.size:
             edges.append((child, samples))
     return edges

@@ -13,8 +13,8 @@ from coframe.cli.streams import (
     accept_any_encoding,
     discard_output,
     flush_output,
+    is_undecodable,
     replace_closed_streams,
-    undecodable,
 )
 from coframe.cli.system_errors import description
 
@@ -39,7 +39,7 @@ def run(words: list[str], *, program: str = "coframe", shown: Collection[str] | 
     """
     replace_closed_streams()
     accept_any_encoding()
-    if bad := next(filter(undecodable, words), None):
+    if bad := next(filter(is_undecodable, words), None):
         print(f"coframe: the argument {bad[:60]!r} is not valid UTF-8.", file=sys.stderr)
         sys.exit(2)
     try:

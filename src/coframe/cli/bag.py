@@ -36,8 +36,8 @@ from coframe.cli.output import fail, one_line, printable, report_console, warn
 from coframe.cli.play import burst, play
 from coframe.cli.progress import task_progress
 from coframe.cli.record import record
-from coframe.cli.recordings import EARLIEST_WALL_TIME, grouped_by_topic, open_recording
-from coframe.cli.rosbag2_words import BAG_WORDS, Rosbag2Command, without_formats
+from coframe.cli.recordings import EARLIEST_WALL_TIME, group_by_topic, open_recording
+from coframe.cli.rosbag2_words import BAG_WORDS, Rosbag2Command, remove_formats
 from coframe.doctor import Severity, diagnose, observe_recording
 from coframe.doctor.rendering.text import headline
 from coframe.time import MILLISECOND, SECOND
@@ -97,7 +97,7 @@ class ConvertCommand(BagCommand):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Remove the formats, then parse as usual."""
-        return super().parse_args(ctx, without_formats(args))
+        return super().parse_args(ctx, remove_formats(args))
 
 
 @bag.command(cls=BagCommand, short_help="Show topics, transform trees and gaps of a recording.")
@@ -129,7 +129,7 @@ def info(
             return
         summary = summarize(recording)
         if as_json:
-            print(json.dumps(_as_plain_data(summary), indent=2))
+            print(json.dumps(_to_plain_data(summary), indent=2))
         else:
             _print(summary)
             if verbose:
@@ -383,7 +383,9 @@ def slice_(
     """
 
     def span(recording: Recording) -> tuple[int | None, int | None]:
-        first, last = (_receipt_time(name, text, recording) for name, text in (("--start", start), ("--end", end)))
+        first, last = (
+            _parse_receive_time(name, text, recording) for name, text in (("--start", start), ("--end", end))
+        )
         if first is not None and last is not None and first > last:
             fail(f"--start {start} is after --end {end}", code=2)
         return first, None if last is None else last + 1
@@ -391,7 +393,7 @@ def slice_(
     _copy([bag], output, compression, topics=topics or None, span=span)
 
 
-def _receipt_time(option: str, text: str | None, recording: Recording) -> int | None:
+def _parse_receive_time(option: str, text: str | None, recording: Recording) -> int | None:
     try:
         return None if text is None else parse_time_point(text, (recording.received_start, recording.received_end))
     except ValueError as error:
@@ -403,7 +405,7 @@ def _copy(sources: Sequence[Readable], output: Path, compression: str, **selecti
     with run_to_completion():
         with task_progress() as progress:
             report = copy_recordings(sources, output, compression=compression, progress=progress, **selection)
-        for sentence in grouped_by_topic([*report.problems, *report.notes]):
+        for sentence in group_by_topic([*report.problems, *report.notes]):
             warn(sentence)
         print(printable(f"{report.path}: {count(report.messages, 'message')}"))
 
@@ -502,10 +504,10 @@ def _text(text: str, style: str = "") -> Text:
     return Text(one_line(text), style=style)
 
 
-def _as_plain_data(value: Any) -> Any:
+def _to_plain_data(value: Any) -> Any:
     """Return named tuples as dictionaries, also inside lists and tuples."""
     if isinstance(value, (list, tuple)):
-        parts = [_as_plain_data(part) for part in value]
+        parts = [_to_plain_data(part) for part in value]
         return dict(zip(value._fields, parts, strict=True)) if hasattr(value, "_fields") else parts
     return value
 

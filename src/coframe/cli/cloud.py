@@ -124,7 +124,7 @@ def cloud(
                 recording,
                 topic,
                 frame,
-                **_parsed_times(recording, times),
+                **_parse_times(recording, times),
                 deskew=cast("Literal['auto', 'off']", deskew),
                 point_times=point_times,
                 fixed=fixed,
@@ -149,7 +149,7 @@ def cloud(
         print(printable(f"{output}: {_describe_counts(clouds, points)}, in frame {frame!r}"))
 
 
-def _parsed_times(recording: Recording, times: dict[str, str | None]) -> dict[str, Any]:
+def _parse_times(recording: Recording, times: dict[str, str | None]) -> dict[str, Any]:
     return {name: None if text is None else parse_time(f"--{name}", text, recording) for name, text in times.items()}
 
 

@@ -67,7 +67,7 @@ class CommandLine(CommandGroup):
         """
         if cmd_name not in self.commands:
             if cmd_name in self._rows:
-                self.commands[cmd_name] = self._own_command(cmd_name)
+                self.commands[cmd_name] = self._load_own_command(cmd_name)
             elif cmd_name in self._plugins:
                 self.commands[cmd_name] = _load_command(self._plugins[cmd_name])
         return self.commands.get(cmd_name)
@@ -75,7 +75,7 @@ class CommandLine(CommandGroup):
     def command_lines(self, ctx: click.Context) -> list[tuple[str, str]]:  # noqa: ARG002
         """Return the names of the commands with their summaries."""
         own = [(name, row.line) for name, row in self._rows.items()]
-        return [*own, *((name, _line(plugin)) for name, plugin in self._plugins.items())]
+        return [*own, *((name, _plugin_summary(plugin)) for name, plugin in self._plugins.items())]
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
         """Return the names of commands or options that begin with a text."""
@@ -105,14 +105,14 @@ class CommandLine(CommandGroup):
         found = plugins(PLUGINS) if self._has_plugins else []
         return {plugin.name: plugin for plugin in found if plugin.name not in COMMANDS}
 
-    def _own_command(self, name: str) -> click.Command:
+    def _load_own_command(self, name: str) -> click.Command:
         module = importlib.import_module(f"coframe.cli.{self._rows[name].module}")
         command: click.Command = getattr(module, name)
         command.short_help = self._rows[name].line
         return command
 
 
-def _line(plugin: Plugin) -> str:
+def _plugin_summary(plugin: Plugin) -> str:
     return f"Command of the package {plugin.package}."
 
 
@@ -143,9 +143,9 @@ class _Failure(click.ClickException):
 
 def _options() -> list[click.Parameter]:
     return [
-        _action("--version", "Show the version and exit.", _print_version),
-        _action("--install-completion", "Install completion for the current shell.", _install_completion),
-        _action(
+        _action_option("--version", "Show the version and exit.", _print_version),
+        _action_option("--install-completion", "Install completion for the current shell.", _install_completion),
+        _action_option(
             "--show-completion",
             "Print the completion script for the current shell, to copy or customize it.",
             _show_completion,
@@ -161,7 +161,7 @@ def _options() -> list[click.Parameter]:
     ]
 
 
-def _action(name: str, text: str, action: Any) -> click.Option:
+def _action_option(name: str, text: str, action: Any) -> click.Option:
     """Return an option that runs an action instead of a command."""
 
     def run(ctx: click.Context, _parameter: click.Parameter, requested: bool) -> None:

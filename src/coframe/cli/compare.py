@@ -229,9 +229,9 @@ def _table(result: Comparison) -> str:
         )
     rows = [
         ("APE translation [m]", result.ape.translation_statistics),
-        ("APE rotation [deg]", _in_degrees(result.ape)),
+        ("APE rotation [deg]", _to_degrees(result.ape)),
         ("RPE translation [m]", result.rpe.translation_statistics),
-        ("RPE rotation [deg]", _in_degrees(result.rpe)),
+        ("RPE rotation [deg]", _to_degrees(result.rpe)),
     ]
     lines += [
         f"RPE over {result.delta}: {count(len(result.rpe.translation), 'motion')}",
@@ -242,7 +242,7 @@ def _table(result: Comparison) -> str:
     return "\n".join(lines)
 
 
-def _in_degrees(errors: PoseErrors) -> Statistics:
+def _to_degrees(errors: PoseErrors) -> Statistics:
     statistics = errors.rotation_statistics
     values = {name: math.degrees(value) for name, value in statistics._asdict().items()}
     return statistics._replace(**{**values, "sse": math.degrees(values["sse"])})
@@ -266,9 +266,9 @@ def _rows(results: dict[str, Comparison]) -> str:
     for name, result in results.items():
         errors = (
             result.ape.translation_statistics,
-            _in_degrees(result.ape),
+            _to_degrees(result.ape),
             result.rpe.translation_statistics,
-            _in_degrees(result.rpe),
+            _to_degrees(result.rpe),
         )
         scale = 1.0 if result.alignment is None else result.alignment.scale
         numbers = "".join(f"{each.rmse:>10.4g}{each.max:>10.4g}" for each in errors)
@@ -279,7 +279,7 @@ def _rows(results: dict[str, Comparison]) -> str:
 def _write(path: Path, results: dict[str, Comparison], reference: str) -> None:
     kind = path.suffix.lower().removeprefix(".")
     if kind in FIGURE_FORMATS:
-        save_figure(_figure(results, reference), path)
+        save_figure(_make_figure(results, reference), path)
         return
     text = json.dumps(_as_dict(results), indent=2) + "\n" if kind == "json" else _csv(results)
     try:
@@ -308,7 +308,7 @@ def _csv(results: dict[str, Comparison]) -> str:
     return text.getvalue()
 
 
-def _figure(results: dict[str, Comparison], reference: str) -> Figure:
+def _make_figure(results: dict[str, Comparison], reference: str) -> Figure:
     """Return the errors of all estimates over time."""
     series = []
     has_time = all(result.reference.stamps is not None for result in results.values())

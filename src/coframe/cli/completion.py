@@ -29,17 +29,17 @@ __all__ = [
     "complete_tf_topics",
 ]
 
-_Names = TypeVar("_Names")
+_NamesT = TypeVar("_NamesT")
 _DISCOVERY = 0.6  # seconds: the longest discovery of topics or frames
 _SETTLE_TIME = 0.2  # seconds without a new name, after which the known names are complete
 _MAX_BYTES = 200 << 20  # bytes; reading more would take longer than typing the name
 
 
-def _without_errors(complete: Callable[..., _Names]) -> Callable[..., _Names | list[str]]:
+def _without_errors(complete: Callable[..., _NamesT]) -> Callable[..., _NamesT | list[str]]:
     """Wrap a completion so that it returns no names on failure and writes nothing to stderr."""
 
     @functools.wraps(complete)
-    def run(*args: Any, **kwargs: Any) -> _Names | list[str]:
+    def run(*args: Any, **kwargs: Any) -> _NamesT | list[str]:
         stderr, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, 2)  # The DDS library also writes to it.
         try:
@@ -135,7 +135,7 @@ def _live_topics(domain: int | None) -> dict[str, list[str]]:
         participant.close()
 
 
-def _wait_until_settled(observe: Callable[[], _Names]) -> _Names:
+def _wait_until_settled(observe: Callable[[], _NamesT]) -> _NamesT:
     """Return the state of the ROS graph once it no longer changes, or after a timeout."""
     begin = changed = time.monotonic()
     names = observe()

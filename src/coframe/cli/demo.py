@@ -46,7 +46,7 @@ RESERVED_LINES = 6  # above and below the rows of the tree
 # All of these frames exist once every node has published.
 EXPECTED_FRAMES = ("world", "end_effector", "camera_link", "lidar_link")
 START_TIMEOUT = 20.0
-ARM = Path(coframe.lab.__file__).with_name("two_link_arm.urdf.xacro")
+ARM_XACRO = Path(coframe.lab.__file__).with_name("two_link_arm.urdf.xacro")
 
 
 class CloudCounter:
@@ -154,7 +154,7 @@ def demo(
 def _robot() -> Robot | None:
     """Return the robot whose meshes the viewer shows; None if xacro is not installed; the demo works without it."""
     try:
-        return load(ARM)
+        return load(ARM_XACRO)
     except CoframeError:
         return None
 

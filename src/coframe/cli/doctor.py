@@ -36,7 +36,7 @@ from coframe.doctor.codes import built_in_codes
 from coframe.doctor.recorded import observe_chosen
 from coframe.doctor.rendering.plain import as_data
 from coframe.doctor.rendering.sarif import as_sarif
-from coframe.doctor.rendering.text import lines
+from coframe.doctor.rendering.text import report_lines
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

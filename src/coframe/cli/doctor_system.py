@@ -52,7 +52,7 @@ def _sections(report: SystemReport) -> Iterator[tuple[str, list[str]]]:
     yield "Middleware", list(_middleware(report))
     yield "DDS library", list(_library(report))
     set_variables = [f"{each.name}={each.value}: {each.effect}" for each in report.variables]
-    yield "Environment variables", set_variables or ["none of ROS 2, its middlewares and coframe is set"]
+    yield "Environment variables", set_variables or ["no variables of ROS 2, its middlewares or coframe are set"]
     yield "Network", list(_network(report))
     if report.nodes is not None:
         found = ", ".join(report.nodes) or "none"
@@ -89,13 +89,13 @@ def _library(report: SystemReport) -> Iterator[str]:
 
 
 def _network(report: SystemReport) -> Iterator[str]:
-    yield f"domain {_value_or_unknown(report.domain)}, discovery range {_value_or_unknown(report.discovery)}"
+    yield f"domain {_value_text(report.domain)}, discovery range {_value_text(report.discovery)}"
     if report.participants:
         used, every = report.participants
-        yield f"participants on this machine: {used} of at most {every} indexes in use, {every - used} free"
+        yield f"participants on this machine: {used} of {every} indexes in use, {every - used} free"
     if report.probe:
         for interface in report.probe.interfaces:
-            yield f"interface {interface.name}, {interface.address}: {_state(interface)}"
+            yield f"interface {interface.name}, {interface.address}: {_state_text(interface)}"
         discovery, data = report.probe.unicast_ports or ("unknown", "unknown")
         yield f"UDP ports of a participant: {discovery} for discovery, {data} for data"
         discovery, data = report.probe.multicast_ports or ("none", "none")
@@ -110,15 +110,15 @@ def _network(report: SystemReport) -> Iterator[str]:
         yield f"shared memory (/dev/shm): {_mebibytes(report.limits.shared_memory)} free; coframe does not use it"
 
 
-def _state(interface: Interface) -> str:
+def _state_text(interface: Interface) -> str:
     if not interface.used:
         return "not used"
     if interface.multicast:
         return "used, multicast works"
-    return f"used, multicast does not work ({interface.problem})"
+    return f"in use, but multicast does not work ({interface.problem})"
 
 
-def _value_or_unknown(value: object) -> str:
+def _value_text(value: object) -> str:
     return "unknown" if value is None else str(value)
 
 

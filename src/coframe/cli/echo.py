@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 __all__ = ["echo"]
 
-NODE = "tf2_echo"
+NODE_NAME = "tf2_echo"
 MAX_RATE = 10_000.0  # Hz; terminals are not faster
 MAX_SECONDS = 4e9  # 126 years: the sum of two such times still fits into int64 nanoseconds
 MAX_DIGITS = 17  # significant digits of a float64
@@ -101,7 +101,7 @@ def echo(
 
     Example: coframe echo base_link camera_link 2
     """
-    hertz = _check_positive("Rate", rate if rate is not None else _positional_rate(echo_rate), MAX_RATE)
+    hertz = _check_positive("Rate", rate if rate is not None else _parse_positional_rate(echo_rate), MAX_RATE)
     _check_positive("Period", 1.0 / hertz, MAX_SECONDS)
     # The messages and exit codes for values out of range are tf2_echo's.
     cache = _check_positive("Cache time", cache_time.seconds, MAX_SECONDS)
@@ -115,7 +115,7 @@ def echo(
     with (
         run_until_interrupted(),
         connect(
-            **node_identity(NODE),
+            **node_identity(NODE_NAME),
             domain=domain,
             tf_topic=tf_topic,
             tf_static_topic=tf_static_topic,
@@ -126,7 +126,7 @@ def echo(
     ):
         period = round(SECOND / hertz)
         write = as_json_line if as_json else partial(format_transform, precision=precision)
-        _wait_until_possible(ros, source_frame, target_frame, period)
+        _wait_for_transform(ros, source_frame, target_frame, period)
         due = time.monotonic_ns()
         answers = 0
         while limit is None or answers < limit:
@@ -135,7 +135,7 @@ def echo(
             time.sleep(max(0, due - time.monotonic_ns()) / SECOND)
 
 
-def _positional_rate(text: str | None) -> float:
+def _parse_positional_rate(text: str | None) -> float:
     if text is None:
         return 1.0
     try:
@@ -163,7 +163,7 @@ def _lookup_time(at: float | None, offset: float | None) -> int:
     return 0 if offset is None else time.time_ns() + round(offset * SECOND)
 
 
-def _wait_until_possible(ros: Connection, source: str, target: str, period: int) -> None:
+def _wait_for_transform(ros: Connection, source: str, target: str, period: int) -> None:
     buffer = ros.buffer
     logged_at = logged_hint = None
     while True:
@@ -174,14 +174,14 @@ def _wait_until_possible(ros: Connection, source: str, target: str, period: int)
                 logged_at = time.monotonic()
                 log(
                     "INFO",
-                    NODE,
+                    NODE_NAME,
                     one_line(f"Waiting for transform {source} ->  {target}: {buffer._why_not(source, target)}"),
                 )
                 awaited = ros.awaited_statics()
                 hint = awaited_statics_text(awaited) if awaited else error.hint
                 if hint != logged_hint:  # The reason is repeated every second, the hint only when it changes.
                     logged_hint = hint
-                    log("INFO", NODE, one_line(with_doctor_command(hint)))
+                    log("INFO", NODE_NAME, one_line(with_doctor_command(hint)))
         else:
             return
 

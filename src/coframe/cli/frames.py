@@ -15,7 +15,7 @@ from coframe._files.complete_files import write_complete
 from coframe._process.optional_imports import importing_matplotlib, pip_install
 from coframe.bags.namespaces import TransformChoice
 from coframe.cli.declaration import PATH
-from coframe.cli.frames_screen import tree_in_parts, watch
+from coframe.cli.frames_screen import tree_tables, watch
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
 from coframe.cli.options import (
     PositiveDuration,
@@ -50,13 +50,13 @@ if TYPE_CHECKING:
 __all__ = ["frames"]
 
 
-def _pdf(forest: Forest, title: str) -> bytes:
+def _write_pdf(forest: Forest, title: str) -> bytes:
     from coframe.tree_drawing.pdf import as_pdf  # noqa: PLC0415 - needs an extra package
 
     return as_pdf(forest, title)
 
 
-def _png(forest: Forest, title: str) -> bytes:
+def _write_png(forest: Forest, title: str) -> bytes:
     with importing_matplotlib():
         from coframe.tree_drawing.png import as_png  # noqa: PLC0415 - needs an extra package
 
@@ -67,8 +67,8 @@ _FORMATS: dict[str, Callable[[Forest, str], str | bytes]] = {
     ".gv": as_graphviz,
     ".dot": as_graphviz,
     ".svg": as_svg,
-    ".pdf": _pdf,
-    ".png": _png,
+    ".pdf": _write_pdf,
+    ".png": _write_png,
     ".json": lambda forest, _: json.dumps(as_data(forest), indent=2) + "\n",
     ".mmd": as_mermaid,
     ".md": as_markdown,
@@ -212,5 +212,5 @@ def _print(forests: dict[str, Forest]) -> None:
     for name, forest in forests.items():
         if len(forests) > 1:
             console.print(Text(printable(f"{name or '/'}:"), style="bold"))
-        for part in tree_in_parts(forest):
+        for part in tree_tables(forest):
             console.print(part)

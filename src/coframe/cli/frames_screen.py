@@ -27,16 +27,16 @@ if TYPE_CHECKING:
     from coframe.tree_drawing import Change, Forest
     from coframe.tree_drawing.text import Row
 
-__all__ = ["tree", "tree_in_parts", "watch"]
+__all__ = ["tree", "tree_tables", "watch"]
 
 _KIND_STYLES = {"root": "bold", "moving": "cyan", "static": "", "stale": "red", "other": "red"}
 _CHANGE_STYLES = {"new": "green", "moved": "yellow", "stale": "red", "resumed": "green", "gone": "red"}
-_PUBLISHER = 1  # index of the column
+_PUBLISHER_COLUMN = 1  # index of the column
 _HIGHLIGHT_TIME = 5.0  # seconds
 _MAX_CHANGES = 1000  # kept for highlighting
 _LISTED_CHANGES = 8  # below the tree
 _PERIOD = 1.0  # seconds
-_ROWS = 2000  # rows per table
+_MAX_TABLE_ROWS = 2000  # rows per table
 
 
 def tree(forest: Forest, changed: dict[str, str] | None = None, most: int | None = None) -> Group:
@@ -54,13 +54,13 @@ def tree(forest: Forest, changed: dict[str, str] | None = None, most: int | None
     return Group(_table(cut, _columns(every), changed or {}), *more, _summary(forest))
 
 
-def tree_in_parts(forest: Forest) -> Iterator[Table | Text]:
+def tree_tables(forest: Forest) -> Iterator[Table | Text]:
     """Yield the trees in tables of limited size, because rich needs 10 kB of memory per row."""
     every = list(rows(forest))
     columns = _columns(every)
-    for first in range(0, len(every), _ROWS):
-        table = _table(every[first : first + _ROWS], columns, {})
-        if len(every) > _ROWS:
+    for first in range(0, len(every), _MAX_TABLE_ROWS):
+        table = _table(every[first : first + _MAX_TABLE_ROWS], columns, {})
+        if len(every) > _MAX_TABLE_ROWS:
             table.show_header = first == 0
             for column, width in zip(table.columns, columns.values(), strict=True):
                 column.min_width = width
@@ -85,8 +85,8 @@ def _table(shown: list[Row], columns: dict[int, int], changed: dict[str, str]) -
     for number in columns:
         # In a narrow terminal, publishers are truncated first: rich shrinks columns that may wrap, although no cell
         # does.
-        wraps = number == _PUBLISHER
-        table.add_column(COLUMNS[number], justify="left" if number <= _PUBLISHER else "right", no_wrap=not wraps)
+        wraps = number == _PUBLISHER_COLUMN
+        table.add_column(COLUMNS[number], justify="left" if number <= _PUBLISHER_COLUMN else "right", no_wrap=not wraps)
     for row in shown:
         kind = changed.get(row.frame)
         style = f"reverse {_CHANGE_STYLES[kind]}" if kind else _KIND_STYLES[row.kind]

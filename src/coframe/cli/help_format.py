@@ -34,7 +34,7 @@ def write_description(command: click.Command, formatter: click.HelpFormatter) ->
 
 def write_arguments(command: click.Command, ctx: click.Context, formatter: click.HelpFormatter) -> None:
     """Write the arguments of a command with their help texts."""
-    rows = [(_whole_name(each), _text(each)) for each in _arguments(command, ctx)]
+    rows = [(_unbracketed_name(each), _text(each)) for each in _arguments(command, ctx)]
     write_section(formatter, "Arguments", rows)
 
 
@@ -69,7 +69,7 @@ def _text(argument: click.Argument) -> str:
     return str(text() if callable(text) else text)
 
 
-def _whole_name(argument: click.Argument) -> str:
+def _unbracketed_name(argument: click.Argument) -> str:
     """Return the name without a bracket that spans several arguments, as in [TARGET SOURCE]."""
     name = argument.human_readable_name
     return name if name.count("[") == name.count("]") else name.strip("[]")

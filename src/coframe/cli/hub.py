@@ -22,10 +22,10 @@ from coframe.connection.listener_config import ListenerConfig
 from coframe.connection.shared_transforms import (
     GENERATIONS,
     SharedTransforms,
-    full,
+    full_memory_warning,
     is_suspended,
     open_segment,
-    suspension,
+    suspension_warning,
 )
 
 if TYPE_CHECKING:
@@ -99,13 +99,13 @@ def _print_status(config: ListenerConfig) -> None:
         size = f"{len(buffer.frame_names())} frames in {segment.used / 1e6:.1f} MB of shared memory"
         print(f"Process {process} receives {_topics(config)} for all programs that share transforms: {size}.")
         if shortage := segment.shortage:
-            print(full(shortage))
+            print(full_memory_warning(shortage))
         if segment.outdated:
             print(
                 "Static transforms were withdrawn: programs that start now use a separate shared memory without them."
             )
         if is_suspended(process):
-            print(suspension(process))
+            print(suspension_warning(process))
             raise Exit(1)
     finally:
         segment.close()
@@ -122,7 +122,7 @@ def _receive(config: ListenerConfig) -> None:
 
 def _report(config: ListenerConfig, generations: list[SharedTransforms]) -> None:
     """Log changes. Programs that start after a static transform was withdrawn use a new generation."""
-    if not generations[0].writes:
+    if not generations[0].is_writer:
         process = generations[0].writer_process
         log("INFO", NODE, f"Process {process} receives {_topics(config)}. This one takes over when it ends.")
     frames = -1
@@ -130,14 +130,14 @@ def _report(config: ListenerConfig, generations: list[SharedTransforms]) -> None
     pause = threading.Event()
     buffer = _follow(config, generations[0])
     while True:
-        if generations[-1].writes and not received:
+        if generations[-1].is_writer and not received:
             received = True
             log("INFO", NODE, f"Receiving {_topics(config)} for all programs that share transforms. Ctrl-C stops.")
         if len(buffer.frame_names()) != frames:
             frames = len(buffer.frame_names())
             log("INFO", NODE, f"{frames} frames in {generations[-1].used / 1e6:.1f} MB of shared memory")
         pause.wait(REFRESH)
-        if generations[-1].outdated and len(generations) < GENERATIONS:
+        if generations[-1].is_outdated and len(generations) < GENERATIONS:
             generations.append(SharedTransforms.join(config))
             buffer = _follow(config, generations[-1])
             log("INFO", NODE, "Static transforms were withdrawn. Programs that start now use a separate shared memory.")

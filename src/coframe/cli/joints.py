@@ -110,7 +110,7 @@ def joints(
         # Omitted options do not override parameters set by -p and --params-file.
         given = {"rate": rate, "delta": delta}
         values: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
-        values |= _zeros(robot, zero)
+        values |= _parse_zeros(robot, zero)
         sources = [*source, *([SLIDERS] if gui else [])]
         if sources:
             values["source_list"] = sources
@@ -129,7 +129,7 @@ def joints(
                 running.wait()
 
 
-def _zeros(robot: Robot | None, words: Iterable[str]) -> dict[str, float]:
+def _parse_zeros(robot: Robot | None, words: Iterable[str]) -> dict[str, float]:
     """Return the node parameters for arguments JOINT=VALUE."""
     found = {}
     for word in words:
@@ -153,7 +153,7 @@ class RunningNode:
 
     def __init__(self, node: JointStatePublisher, spin: Callable[[], None]) -> None:
         self.node = node
-        self._spin = spin
+        self._spin_node = spin
         self._failure: RobotDescriptionError | None = None
         self.thread = threading.Thread(target=self._run, name="joint_state_publisher", daemon=True)
         self.thread.start()
@@ -175,7 +175,7 @@ class RunningNode:
 
     def _run(self) -> None:
         try:
-            self._spin()
+            self._spin_node()
         except RobotDescriptionError as error:
             self._failure = error
 

@@ -24,7 +24,7 @@ from coframe.cli.progress import item_progress
 from coframe.cli.view import open_browser, optional_viewer, port_option
 from coframe.connection.connection import connect
 from coframe.course import formats
-from coframe.course.assignment import FILE
+from coframe.course.assignment import ASSIGNMENT_FILE
 from coframe.course.checking import check_class, check_folder, submissions
 from coframe.course.faults import FAULTS
 from coframe.course.first_output import FirstOutput
@@ -32,7 +32,7 @@ from coframe.course.folders import create_folder
 from coframe.course.handbook import chapters, contents, terminal_text, write_pages
 from coframe.course.isolation import isolation_problem
 from coframe.course.rubric import CRITERIA
-from coframe.course.running import COMPLETE_TREE, SIMULATION, STEPS, programs_of, running
+from coframe.course.running import COMPLETE_TREE_FILES, NODE_FILES, SIMULATION, programs_of, running
 from coframe.course.submitted import check_outputs
 from coframe.errors import CourseError
 
@@ -50,7 +50,7 @@ folder_argument = argument(
     metavar="[FOLDER]",
     type=PATH,
     required=False,
-    help=f"Folder of the lab. [default: the current folder if it contains {FILE}, otherwise lab]",
+    help=f"Folder of the lab. [default: the current folder if it contains {ASSIGNMENT_FILE}, otherwise lab]",
 )
 variant_option = click.option(
     "--variant", metavar="SEED", type=int, help="Seed of a variant with different lengths, sensor mounts and rates."
@@ -104,7 +104,7 @@ def run(
     seconds = None if duration is None else duration.seconds
     simulation = SIMULATION[1:] if complete else SIMULATION
     with run_until_interrupted():
-        programs = [*programs_of(_folder(folder), COMPLETE_TREE if complete else STEPS), *simulation]
+        programs = [*programs_of(_folder(folder), COMPLETE_TREE_FILES if complete else NODE_FILES), *simulation]
         print(
             "Your nodes are running with a simulated robot. Press Ctrl-C to stop them. The viewer shows them:",
             flush=True,
@@ -115,14 +115,16 @@ def run(
 @lab.command(short_help="Grade one student's folder, or a whole class.")
 @folder_argument
 @click.option("--all", "everyone", is_flag=True, help="Grade all folders in FOLDER, one per student.")
-@click.option("--output", "-o", metavar="FILE", type=PATH, help="With --all: write the grades as a CSV table.")
+@click.option(
+    "--output", "-o", metavar="ASSIGNMENT_FILE", type=PATH, help="With --all: write the grades as a CSV table."
+)
 @click.option(
     "--only", metavar="CRITERION", multiple=True, help=f"Check only this criterion: {', '.join(CRITERIA)}; repeatable."
 )
 @variant_option
 @click.option("--json", "as_json", is_flag=True, help="Print the report as JSON.")
-@click.option("--gradescope", metavar="FILE", type=PATH, help="Write Gradescope's results.json.")
-@click.option("--classroom", metavar="FILE", type=PATH, help="Write the result for GitHub Classroom.")
+@click.option("--gradescope", metavar="ASSIGNMENT_FILE", type=PATH, help="Write Gradescope's results.json.")
+@click.option("--classroom", metavar="ASSIGNMENT_FILE", type=PATH, help="Write the result for GitHub Classroom.")
 @click.option(
     "--record", metavar="FOLDER", type=PATH, help="Record all topics to this folder, for inspection in the viewer."
 )
@@ -160,7 +162,7 @@ def check(
     if everyone and (record or gradescope or classroom):
         fail("--gradescope, --classroom and --record apply to a single folder", "Omit them, or omit --all.", code=2)
     if output and not everyone:
-        fail("-o writes the table of a class", "Add --all, or use --json for the report of one folder.", code=2)
+        fail("-o writes the grades of a class", "Add --all, or use --json for the report of one folder.", code=2)
     with run_to_completion():
         if problem := isolation_problem():
             warn(problem)
@@ -173,7 +175,7 @@ def check(
             with item_progress("checking", len(chosen)) as progress:
                 report = check_folder(student, variant=variant, only=chosen, record=record, progress=progress)
         except CourseError as error:
-            _write_reports(formats.ungraded(str(student), str(error)), formatted)
+            _write_reports(formats.ungraded_report(str(student), str(error)), formatted)
             raise
         _write_reports(report, formatted)
         if as_json:
@@ -191,7 +193,7 @@ def _write_reports(
             write_complete(path, f"{json.dumps(convert(report), indent=2)}\n".encode())
 
 
-@lab.command("break", short_help="Start a system with a fault to find.")
+@lab.command("break", short_help="Start a system with a fault to diagnose.")
 @argument(
     "number", metavar="N", type=click.IntRange(min=1, max=len(FAULTS)), help=f"Number of a fault, 1 to {len(FAULTS)}."
 )
@@ -274,7 +276,7 @@ def _folder(given: Path | None) -> Path:
     """Return the folder of the lab: the given one, the current one if it contains the lab, or lab."""
     if given is not None:
         return given
-    return Path.cwd() if Path(FILE).is_file() else Path("lab")
+    return Path.cwd() if Path(ASSIGNMENT_FILE).is_file() else Path("lab")
 
 
 def _run(
@@ -317,7 +319,7 @@ def _print_verdict(number: int, answer: str) -> None:
         fail(f"{answer!r} is not the name of a fault", f"Faults: {', '.join(sorted(names))}.", code=2)
     fault = FAULTS[number - 1]
     if answer != fault.name:
-        fail("That is not the fault.", "Start it again, and run coframe doctor in a second terminal.")
+        fail("The answer is wrong.", "Start the system again, and run coframe doctor in a second terminal.")
     print(f"Right: {fault.explanation}")
 
 
@@ -332,7 +334,7 @@ def _check_class(
         closing(check_class(folders, jobs=jobs, variant=variant, only=only)) as results,
     ):
         for name, result in results:
-            reports[name] = result if isinstance(result, dict) else formats.ungraded(name, str(result))
+            reports[name] = result if isinstance(result, dict) else formats.ungraded_report(name, str(result))
             progress(len(reports))
     rows = [formats.csv_row(name, reports[name]) for name in sorted(reports)]
     columns = list(dict.fromkeys(column for row in rows for column in row if column != "problem"))

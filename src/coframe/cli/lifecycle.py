@@ -67,15 +67,15 @@ def run_to_completion() -> Iterator[None]:
 @contextlib.contextmanager
 def _printed_warnings() -> Iterator[None]:
     """Print each distinct library warning once, without the source line that Python adds."""
-    printed: set[str] = set()
+    printed_texts: set[str] = set()
     show = warnings.showwarning
 
     def print_once(message: Warning | str, category: type[Warning], *place: Any, **line: Any) -> None:
         if not issubclass(category, CoframeWarning):
             show(message, category, *place, **line)
-        elif str(message) not in printed:
-            printed.add(str(message))
-            warn(_ARGUMENT.sub(_as_option, str(message)))
+        elif str(message) not in printed_texts:
+            printed_texts.add(str(message))
+            warn(_ARGUMENT.sub(_option_text, str(message)))
 
     with warnings.catch_warnings():
         warnings.simplefilter("always", CoframeWarning)
@@ -83,7 +83,7 @@ def _printed_warnings() -> Iterator[None]:
         yield
 
 
-def _as_option(argument: re.Match[str]) -> str:
+def _option_text(argument: re.Match[str]) -> str:
     """Return the command-line option for an argument of the library."""
     name, value = argument.groups()
     return f"--{name.replace('_', '-')}" + ("" if value == "True" else f" {value.strip(chr(34))}")

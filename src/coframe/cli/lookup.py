@@ -119,7 +119,7 @@ def lookup(
         nonlocal gap
         when = 0 if at is None else parse("--at", at)
         if fixed is None or source_time is None:
-            found = _looked_up(buffer, target, source, when, max_gap)
+            found = _look_up(buffer, target, source, when, max_gap)
             gap = buffer.validity(target, source, [found.stamp or 0]) if validity else None
             return found
         return buffer._lookup_full(target, when, source, parse("--source-time", source_time), fixed)
@@ -148,7 +148,7 @@ def lookup(
             )
             with Connection("coframe_lookup", config) as ros:
                 try:
-                    found = _wait_for_transform(lambda: transform(ros.buffer, _clock_time(duration)), duration)
+                    found = _wait_for_transform(lambda: transform(ros.buffer, _live_time_parser(duration)), duration)
                 except TransformException as error:
                     if awaited := ros.awaited_statics():
                         fail(str(error), awaited_statics_text(awaited))
@@ -176,7 +176,7 @@ def _gap_line(gap: Validity) -> str:
     return f"- Interpolated over: {duration(int(gap.gaps[0]))} between two samples of {display_name(gap.edges[0])}"
 
 
-def _looked_up(buffer: Buffer, target: str, source: str, when: int, max_gap: int | None) -> Transform:
+def _look_up(buffer: Buffer, target: str, source: str, when: int, max_gap: int | None) -> Transform:
     """Return the transform; print a warning if it is interpolated over an unusually long gap."""
     found = buffer.lookup(target, source, when, max_gap=max_gap)
     if max_gap is None:
@@ -186,7 +186,7 @@ def _looked_up(buffer: Buffer, target: str, source: str, when: int, max_gap: int
     return found
 
 
-def _clock_time(window: int) -> Callable[[str, str], int]:
+def _live_time_parser(window: int) -> Callable[[str, str], int]:
     """Return the function that parses a time of the live graph; offsets are relative to the time to wait."""
     now = time.time_ns()
 

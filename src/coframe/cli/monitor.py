@@ -97,7 +97,7 @@ def monitor(
 
 def _printer(as_json: bool, classic: bool) -> Callable[[Observation, Pair], None]:
     if as_json:
-        return lambda observation, pair: print(json.dumps(_data(observation, pair)), flush=True)
+        return lambda observation, pair: print(json.dumps(_as_data(observation, pair)), flush=True)
     if classic:
         return _print_classic
     return lambda observation, pair: report_console().print(_tables(observation, pair))
@@ -134,18 +134,18 @@ def _tables(observation: Observation, pair: Pair, most: int | None = None) -> Gr
     rows = edge_statistics(observation, most)
     for row in rows:
         figures = (row.jitter, row.delay, row.delay_p99, row.age)
-        rate = "static" if row.static else "stale" if row.stale else _hertz(row.rate)
+        rate = "static" if row.static else "stale" if row.stale else _format_hertz(row.rate)
         cells = (
             f"{display_name(row.parent)} -> {display_name(row.child)}",
             display_name(row.publisher) or "unknown",
             rate,
-            *map(_ms, figures),
+            *map(_format_ms, figures),
         )
         edges.add_row(*_cells(*cells, str(row.transforms)), style="red" if row.stale else "")
     publishers = _table("publisher", "messages/s", "delay ms", "p99 ms")
     for node in publisher_statistics(observation):
-        delays = (_ms(node.delay), _ms(node.delay_p99))
-        publishers.add_row(*_cells(display_name(node.publisher) or "unknown", _hertz(node.rate), *delays))
+        delays = (_format_ms(node.delay), _format_ms(node.delay_p99))
+        publishers.add_row(*_cells(display_name(node.publisher) or "unknown", _format_hertz(node.rate), *delays))
     chain = [Text(_chain(chain_statistics(observation, *pair), pair))] if pair else []
     left = len(observation.edges) - len({(row.parent, row.child) for row in rows})
     more = [Text(f"... and {count(left, 'more edge')}; `coframe monitor --once` prints all", style="dim")]
@@ -157,14 +157,14 @@ def _chain(figures: ChainStatistics | None, pair: tuple[str, str]) -> str:
         return f"no transforms connect {display_name(pair[0])} and {display_name(pair[1])} yet"
     chain = f"chain: {' -> '.join(map(display_name, figures.frames))}"
     if figures.limit is None:
-        return f"{chain}\nall edges are static, or not every edge has been received yet"
+        return f"{chain}\nno dynamic edge has been received: all edges are static, or some are still missing"
     return (
-        f"{chain}\nnet delay: mean {_ms(figures.delay)} ms, p99 {_ms(figures.delay_p99)} ms; limited by "
+        f"{chain}\nnet delay: mean {_format_ms(figures.delay)} ms, p99 {_format_ms(figures.delay_p99)} ms; limited by "
         f"{' -> '.join(map(display_name, figures.limit))} for {figures.limit_share:.0%} of the time"
     )
 
 
-def _data(observation: Observation, pair: Pair) -> dict[str, Any]:
+def _as_data(observation: Observation, pair: Pair) -> dict[str, Any]:
     data: dict[str, Any] = {
         "start_ns": observation.start,
         "end_ns": observation.end,
@@ -178,12 +178,12 @@ def _data(observation: Observation, pair: Pair) -> dict[str, Any]:
 
 
 def _print_classic(observation: Observation, pair: Pair) -> None:
-    for line in _classic(observation, pair):
+    for line in _classic_lines(observation, pair):
         # tf2_monitor prints only this line on stderr.
         print(line, file=sys.stderr if line == _BROADCASTERS else sys.stdout, flush=True)
 
 
-def _classic(observation: Observation, pair: Pair) -> Iterator[str]:
+def _classic_lines(observation: Observation, pair: Pair) -> Iterator[str]:
     """Yield the lines of tf2_monitor, with the names of publishers instead of ``<no authority available>``.
 
     The delay of a static transform is printed as 0; tf2_monitor prints the age of the transform.
@@ -194,30 +194,32 @@ def _classic(observation: Observation, pair: Pair) -> Iterator[str]:
         yield f"RESULTS: for {display_name(pair[0])} to {display_name(pair[1])}"
         if chain is not None:
             yield f"Chain is: {' -> '.join(map(display_name, chain.frames))}"
-            yield f"Net delay     avg = {_fmt(chain.delay)}: max = {_fmt(chain.delay_max)}"
+            yield f"Net delay     avg = {_format_seconds(chain.delay)}: max = {_format_seconds(chain.delay_max)}"
     else:
         yield "RESULTS: for all Frames"
     yield "\nFrames:"
     for row in edge_statistics(observation):
         name = display_name(row.publisher) or "<no authority available>"
         frame = display_name(row.child)
-        yield f"Frame: {frame}, published by {name}, Average Delay: {_fmt(row.delay)}, Max Delay: {_fmt(row.delay_max)}"
+        yield f"Frame: {frame}, published by {name}, Average Delay: {_format_seconds(row.delay)}, Max Delay: "
+        f"{_format_seconds(row.delay_max)}"
     yield _BROADCASTERS
     for node in publisher_statistics(observation):
         name, rate = display_name(node.publisher) or "<no authority available>", node.rate or 0.0
-        yield f"Node: {name} {rate:g} Hz, Average Delay: {_fmt(node.delay)} Max Delay: {_fmt(node.delay_max)}"
+        yield f"Node: {name} {rate:g} Hz, Average Delay: {_format_seconds(node.delay)} Max Delay: "
+        f"{_format_seconds(node.delay_max)}"
 
 
-def _fmt(nanoseconds: float | None) -> str:
+def _format_seconds(nanoseconds: float | None) -> str:
     """Format seconds with six significant digits, as C++ streams do."""
     return f"{(nanoseconds or 0.0) / SECOND:g}"
 
 
-def _ms(nanoseconds: float | None) -> str:
+def _format_ms(nanoseconds: float | None) -> str:
     return "" if nanoseconds is None else f"{nanoseconds / MILLISECOND:.1f}"
 
 
-def _hertz(rate: float | None) -> str:
+def _format_hertz(rate: float | None) -> str:
     return "" if rate is None else f"{rate:.1f}"
 
 

@@ -82,11 +82,11 @@ class Duration(int):
         except (ValueError, TypeError):
             raise click.BadParameter(f"{text[:60]!r} is not a duration. {DURATIONS}") from None
         duration._text = text
-        if reason := duration._refusal():
+        if reason := duration._range_error():
             raise click.BadParameter(f"{reason}, not {text[:60]!r}.")
         return duration
 
-    def _refusal(self) -> str:
+    def _range_error(self) -> str:
         return ""
 
     def __str__(self) -> str:
@@ -106,14 +106,14 @@ class Duration(int):
 class NonNegativeDuration(Duration):
     """A duration that is not negative."""
 
-    def _refusal(self) -> str:
+    def _range_error(self) -> str:
         return "the duration must not be negative" if self < 0 else ""
 
 
 class PositiveDuration(Duration):
     """A duration greater than 0."""
 
-    def _refusal(self) -> str:
+    def _range_error(self) -> str:
         return "the duration must be greater than 0" if self <= 0 else ""
 
 
@@ -233,15 +233,17 @@ keep_option = click.option(
 
 def listener_options(function: Declared) -> Declared:
     """Declare the options for received transforms: topics, prefix and kept frames."""
-    return _declared(function, tf_topic_option, tf_static_topic_option, prefix_option, keep_option)
+    return _apply_options(function, tf_topic_option, tf_static_topic_option, prefix_option, keep_option)
 
 
 def recorded_listener_options(function: Declared) -> Declared:
     """Declare these options for a command that may also read a recording."""
-    return _declared(function, recorded_tf_topic_option, recorded_tf_static_topic_option, prefix_option, keep_option)
+    return _apply_options(
+        function, recorded_tf_topic_option, recorded_tf_static_topic_option, prefix_option, keep_option
+    )
 
 
-def _declared(function: Declared, *options: Callable[[Declared], Declared]) -> Declared:
+def _apply_options(function: Declared, *options: Callable[[Declared], Declared]) -> Declared:
     for option in reversed(options):
         function = option(function)
     return function

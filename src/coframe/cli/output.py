@@ -13,7 +13,7 @@ from click.exceptions import Exit
 
 from coframe._files.bounded_lines import print_bounded
 from coframe._output.escaping import one_line, printable
-from coframe.cli.system_errors import advice_for_writing
+from coframe.cli.system_errors import writing_advice
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def fail(text: str, hint: str = "", *, code: int = 1, details: str = "") -> NoRe
 def fail_to_write(path: Path | None, error: OSError) -> NoReturn:
     """End the command because a file (or, without a path, standard output) could not be written."""
     name = "standard output" if path is None else path
-    fail(f"{name} cannot be written: {error.strerror or error}", advice_for_writing(error))
+    fail(f"{name} cannot be written: {error.strerror or error}", writing_advice(error))
 
 
 def with_doctor_command(hint: str) -> str:

@@ -27,7 +27,7 @@ from coframe.cli.options import (
     listener_options,
 )
 from coframe.cli.output import fail, warn
-from coframe.cli.rosbag2_words import PLAY_WORDS, Rosbag2Command, without_formats
+from coframe.cli.rosbag2_words import PLAY_WORDS, Rosbag2Command, remove_formats
 from coframe.errors import RecordingError
 from coframe.recorder import MAX_RATE
 from coframe.recorder import play as start_playing
@@ -56,7 +56,7 @@ class PlayCommand(Rosbag2Command):
             if word == "--clock" and not _is_number(args[i + 1 : i + 2]):
                 args = [*args[: i + 1], _CLOCK_RATE, *args[i + 1 :]]
                 break
-        return super().parse_args(ctx, without_formats(args))
+        return super().parse_args(ctx, remove_formats(args))
 
 
 def _is_number(following: list[str]) -> bool:
@@ -185,7 +185,7 @@ def play(
                 remap={
                     TF_TOPIC: tf_topic,
                     TF_STATIC_TOPIC: tf_static_topic,
-                    **dict(map(_parsed_remapping, remap)),
+                    **dict(map(_parse_remapping, remap)),
                 },
                 rate=rate,
                 # The short options of `ros2 bag play` are accepted here; in other commands they have other meanings.
@@ -237,7 +237,7 @@ def burst(
             player = start_playing(
                 bag,
                 topics=topics or None,
-                remap=dict(map(_parsed_remapping, remap)),
+                remap=dict(map(_parse_remapping, remap)),
                 start_offset=start_offset,
                 paused=True,
                 delay=delay,
@@ -254,7 +254,7 @@ def burst(
         print(f"published {count(player.played, 'message')}")
 
 
-def _parsed_remapping(text: str) -> tuple[str, str]:
+def _parse_remapping(text: str) -> tuple[str, str]:
     old, sign, new = text.partition(":=")
     if not (old and sign and new):
         fail(f"--remap: {text!r} is not of the form OLD:=NEW, for example /tf:=/robot1/tf.", code=2)

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 __all__ = ["record"]
 
 _REFRESH = 0.2  # seconds
-_ALL, _NOT_HIDDEN = ".*", r"(?!.*/_).*"  # regular expressions of topics
+_ALL_TOPICS, _VISIBLE_TOPICS = ".*", r"(?!.*/_).*"  # regular expressions of topics
 _SIZE = re.compile(r"(\d+(?:\.\d+)?)\s*([kMG]?)B?", re.IGNORECASE)
 _UNITS = {"": 1, "k": 1000, "m": 1000**2, "g": 1000**3}
 _MAX_BYTES = 1 << 63  # bytes
@@ -154,7 +154,7 @@ def record(
     if (everything or all_topics) and (topics or regex or types):
         fail("--all cannot be combined with TOPIC, --regex or --topic-types", code=2)
     if everything or all_topics:
-        regex = _ALL if hidden else _NOT_HIDDEN
+        regex = _ALL_TOPICS if hidden else _VISIBLE_TOPICS
     return_freed_arrays()
     with run_until_interrupted():
         try:
@@ -236,15 +236,15 @@ class _Progress:
 
     def __init__(self, recorder: Recorder) -> None:
         self._recorder = recorder
-        self._before = (time.monotonic(), 0)
+        self._last_count = (time.monotonic(), 0)
         self._rate = 0.0
 
     def __call__(self) -> Text:
         now, statistics = time.monotonic(), self._recorder.statistics
-        since, messages = self._before
+        since, messages = self._last_count
         if now - since >= 1.0:
             self._rate = (statistics.messages - messages) / (now - since)
-            self._before = (now, statistics.messages)
+            self._last_count = (now, statistics.messages)
         parts = [
             count(statistics.messages, "message"),
             f"{self._rate:.0f} per second",
@@ -275,15 +275,15 @@ def _finish(recorder: Recorder) -> None:
             warn(f"no message was received on {', '.join(statistics.missing)}")
         if statistics.unrecordable:
             topics = ", ".join(statistics.unrecordable)
-            warn(f"not recorded, because they are not ROS topics or there are too many: {topics}")
+            warn(f"not recorded, because they are not ROS topics or exceed the maximum number of topics: {topics}")
         if statistics.not_renamed:
-            warn(f"no prefix was added on topics with unknown types: {', '.join(statistics.not_renamed)}")
+            warn(f"no prefix was added to the frames of topics with unknown types: {', '.join(statistics.not_renamed)}")
         if recorder.writer.undescribed:
             types = ", ".join(recorder.writer.undescribed)
             warn(f"recorded without message definitions, so other programs cannot decode them: {types}")
         if recorder.writer.incomplete:
             topics = ", ".join(recorder.writer.incomplete)
-            warn(f"the files do not begin with all latched messages, because there are too many: {topics}")
+            warn(f"the files do not begin with all latched messages, because these exceed the memory limit: {topics}")
 
 
 def _bytes(option: str, text: str) -> int:

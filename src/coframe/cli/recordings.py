@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from coframe._output.formatting import join_names, seconds
-from coframe.bags.recording import open_chosen
+from coframe.bags.recording import open_with_choice
 from coframe.bags.time_points import parse_time_point
 from coframe.cli.output import fail, warn
 from coframe.cli.progress import reading_progress
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from coframe.bags.namespaces import TransformChoice
     from coframe.bags.recording import Recording
 
-__all__ = ["EARLIEST_WALL_TIME", "check_has_transforms", "grouped_by_topic", "open_recording", "parse_time", "title_of"]
+__all__ = ["EARLIEST_WALL_TIME", "check_has_transforms", "group_by_topic", "open_recording", "parse_time", "title_of"]
 
 # Stamps before 1980 are assumed to be simulation time, which begins near 0.
 EARLIEST_WALL_TIME = 10 * 365 * DAY
@@ -34,15 +34,17 @@ def open_recording(
     """Open a recording with a progress bar; print on stderr what could not be read."""
     with ExitStack() as closing:
         with reading_progress() as progress:
-            recording = closing.enter_context(open_chosen(path, choice, progress=progress, on_transforms=on_transforms))
+            recording = closing.enter_context(
+                open_with_choice(path, choice, progress=progress, on_transforms=on_transforms)
+            )
             recording.buffers  # noqa: B018 - reads the transforms of a recording on a server
         printed = recording.problems
-        for problem in grouped_by_topic(printed):
+        for problem in group_by_topic(printed):
             warn(problem)
         try:
             yield recording
         finally:
-            for problem in grouped_by_topic([problem for problem in recording.problems if problem not in printed]):
+            for problem in group_by_topic([problem for problem in recording.problems if problem not in printed]):
                 warn(problem)
 
 
@@ -79,7 +81,7 @@ def parse_lookup_time(option: str, text: str, recording: Recording) -> int:
     return 0 if text.strip() == "end" else parse_time(option, text, recording)
 
 
-def grouped_by_topic(sentences: list[str]) -> list[str]:
+def group_by_topic(sentences: list[str]) -> list[str]:
     """Merge equal messages that begin with a topic, such as "/tf: ...", into one about several topics."""
     topics: dict[str, list[str]] = {}
     for sentence in sentences:

@@ -166,7 +166,7 @@ class _Rates:
     """The rate of each edge between two updates of the table."""
 
     def __init__(self) -> None:
-        self._seen: dict[tuple[str, str, str], int] = {}
+        self._seen_counts: dict[tuple[str, str, str], int] = {}
         self._at = 0.0
 
     def update(self, edges: list[RelayedEdge]) -> dict[tuple[str, str, str], float]:
@@ -174,8 +174,10 @@ class _Rates:
         now = time.monotonic()
         seen = {(edge.target, edge.parent, edge.child): edge.forwarded for edge in edges}
         elapsed = max(now - self._at, 1e-9)
-        rates = {key: (passed - self._seen.get(key, 0)) / elapsed for key, passed in seen.items() if self._seen}
-        self._seen, self._at = seen, now
+        rates = {
+            key: (passed - self._seen_counts.get(key, 0)) / elapsed for key, passed in seen.items() if self._seen_counts
+        }
+        self._seen_counts, self._at = seen, now
         return rates
 
 

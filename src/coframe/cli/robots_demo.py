@@ -118,7 +118,7 @@ def _command(name: str, number: int, number_of_robots: int, topics: tuple[str, s
         "start_yaw": f"{angle:.3f}",
     }
     if topics is not None:
-        parameters |= {f"{frame}_frame": f"{name}/{_link(frame)}" for frame in FRAMES}
+        parameters |= {f"{frame}_frame": f"{name}/{_frame_of_link(frame)}" for frame in FRAMES}
     tf, tf_static = topics or (f"/{name}/tf", f"/{name}/tf_static")
     arguments = ["-r", f"__ns:=/{name}", "-r", f"/tf:={tf}", "-r", f"/tf_static:={tf_static}"]
     for parameter, value in parameters.items():
@@ -126,7 +126,7 @@ def _command(name: str, number: int, number_of_robots: int, topics: tuple[str, s
     return NodeCommand(name, tuple(arguments), module="complete_tf_tree")
 
 
-def _link(frame: str) -> str:
+def _frame_of_link(frame: str) -> str:
     return frame if frame in {"odom", "link1", "link2", "end_effector"} else f"{frame}_link"
 
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     import click
 
-__all__ = ["BAG_WORDS", "PLAY_WORDS", "RECORD_WORDS", "Rosbag2Command", "Rosbag2Words", "without_formats"]
+__all__ = ["BAG_WORDS", "PLAY_WORDS", "RECORD_WORDS", "Rosbag2Command", "Rosbag2Words", "remove_formats"]
 
 _FORMATS = ("mcap", "sqlite3")
 _QOS = "coframe uses the QoS of the publishers, and of the recording."
@@ -45,7 +45,7 @@ class Rosbag2Words(NamedTuple):
     ignored: Mapping[str, int] = MappingProxyType({})
     refused: Mapping[str, str] = MappingProxyType({})
 
-    def translated(self, args: list[str]) -> list[str]:
+    def translate(self, args: list[str]) -> list[str]:
         """Return the words of the command line as those of coframe; end the command at an option that is refused."""
         words: list[str] = []
         repeated = ""  # the option that takes the words up to the next option
@@ -87,10 +87,10 @@ class Rosbag2Command(Command):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Translate the options of rosbag2, then parse as usual."""
-        return super().parse_args(ctx, self.rosbag2.translated(args))
+        return super().parse_args(ctx, self.rosbag2.translate(args))
 
 
-def without_formats(args: list[str]) -> list[str]:
+def remove_formats(args: list[str]) -> list[str]:
     """Return the words without the formats that may follow recordings: ``-i run sqlite3`` is ``-i run``."""
     return [
         word for i, word in enumerate(args) if not (word in _FORMATS and args[i - 2 : i - 1] in (["-i"], ["--input"]))
@@ -104,7 +104,7 @@ def _is_number(word: str) -> bool:
         return False
 
 
-_COMMON_REFUSED: dict[str, str] = {
+_COMMON_UNSUPPORTED: dict[str, str] = {
     "--qos-profile-overrides-path": _QOS,
     "--storage-config-file": _STORAGE_FILE,
 }
@@ -138,9 +138,9 @@ RECORD_WORDS = Rosbag2Words(
         "--log-level": 1,
     },
     refused={
-        **_COMMON_REFUSED,
+        **_COMMON_UNSUPPORTED,
         "--snapshot-mode": "Record with --max-duration and keep the newest files.",
-        "--start-paused": "Start the command when the recording is to begin.",
+        "--start-paused": "Start the command when the recording should begin.",
         "--no-discovery": "Select topics, or exclude topics with --exclude.",
         "--use-sim-time": "Messages are recorded with the system time at which they arrive; record /clock as well.",
         "--ignore-leaf-topics": "A subscription does not start a lazy publisher's work unless its topic is selected: "
@@ -175,7 +175,7 @@ PLAY_WORDS = Rosbag2Words(
         "--progress-bar-separation-lines": 1,
     },
     refused={
-        **_COMMON_REFUSED,
+        **_COMMON_UNSUPPORTED,
         "--clock-topics": "--clock HZ publishes /clock at a fixed rate.",
         "--clock-topics-all": "--clock HZ publishes /clock at a fixed rate.",
         "--services": "Requests of recorded services are not sent again: call them with coframe service call.",

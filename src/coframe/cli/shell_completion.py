@@ -28,7 +28,7 @@ MAX_ANCESTORS: Final = 10  # processes between the shell and this one
 _ZSH_LINES: Final = ("fpath+=~/.zfunc; autoload -Uz compinit; compinit", "zstyle ':completion:*' menu select")
 # zsh runs a file of ~/.zfunc at each TAB. The script of click completes at the first one; at the second it only
 # registers its function, so that nothing would be completed before the third.
-_ZSH_END: Final = '\n[[ $zsh_eval_context[-1] == shfunc ]] && {function} "$@"\n'
+_ZSH_FIRST_CALL: Final = '\n[[ $zsh_eval_context[-1] == shfunc ]] && {function} "$@"\n'
 _SHELLS: Final = ("bash", "zsh", "fish")
 
 
@@ -64,7 +64,7 @@ def _script(shell: str, ctx: click.Context) -> str:
     if completion is None:
         raise LookupError(shell)
     source = completion(ctx.command, {}, program, f"_{program.upper()}_COMPLETE")
-    return source.source() + (_ZSH_END.format(function=source.func_name) if shell == "zsh" else "")
+    return source.source() + (_ZSH_FIRST_CALL.format(function=source.func_name) if shell == "zsh" else "")
 
 
 def _add_lines(file: Path, lines: tuple[str, ...]) -> None:

@@ -108,13 +108,13 @@ def _publish_until_stopped(arguments: StaticArguments, identity: NodeIdentity) -
         writer = participant.static_broadcaster(node, arguments.tf_static_topic)
         names = (arguments.frame_id, arguments.child_frame_id)
         writer.send([to_transform_stamped(*names, arguments.transform, time.time_ns())])
-        log("INFO", node.name, _announcement(arguments))
+        log("INFO", node.name, _announcement_text(arguments))
         threading.Event().wait()
     finally:
         participant.close()
 
 
-def _announcement(arguments: StaticArguments) -> str:
+def _announcement_text(arguments: StaticArguments) -> str:
     values = [f"'{value:f}'" for value in arguments.transform.values]
     parent, child = display_name(arguments.frame_id), display_name(arguments.child_frame_id)
     return (

@@ -55,7 +55,7 @@ def parse(words: Sequence[str]) -> StaticArguments:
     """
     flags = _flags(words)
     arguments = _transform(flags)
-    arguments.domain = _domain(flags.names.get("--domain"))
+    arguments.domain = _parse_domain(flags.names.get("--domain"))
     arguments.tf_static_topic = "/" + flags.names.get("--tf-static-topic", "/tf_static").removeprefix("/")
     arguments.prefix, arguments.keep = flags.names.get("--prefix", ""), flags.names.get("--keep", "")
     return arguments
@@ -63,10 +63,10 @@ def parse(words: Sequence[str]) -> StaticArguments:
 
 def _transform(flags: _Flags) -> StaticArguments:
     if not flags.positional:
-        return _new_style(flags)
+        return _parse_new_style(flags)
     if flags.numbers or {"--frame-id", "--child-frame-id"} & set(flags.names):
         raise ArgumentError("Cannot specify both new-style (flags) and old-style (arguments)")
-    return _old_style(flags.positional)
+    return _parse_old_style(flags.positional)
 
 
 def _flags(arguments: Sequence[str]) -> _Flags:
@@ -105,7 +105,7 @@ def _number(text: str, flag: str) -> float:
     return number
 
 
-def _domain(text: str | None) -> int | None:
+def _parse_domain(text: str | None) -> int | None:
     if text is None:
         return None
     if not re.fullmatch("[0-9]{1,3}", text) or int(text) > 232:
@@ -113,7 +113,7 @@ def _domain(text: str | None) -> int | None:
     return int(text)
 
 
-def _new_style(flags: _Flags) -> StaticArguments:
+def _parse_new_style(flags: _Flags) -> StaticArguments:
     numbers = flags.numbers
     if any(flag in numbers for flag in QUATERNION) and any(flag in numbers for flag in EULER):
         raise ArgumentError("Cannot specify both quaternion and Euler rotations")
@@ -128,7 +128,7 @@ def _new_style(flags: _Flags) -> StaticArguments:
     return StaticArguments(frame_id, child_frame_id, transform)
 
 
-def _old_style(positional: list[str]) -> StaticArguments:
+def _parse_old_style(positional: list[str]) -> StaticArguments:
     if len(positional) not in {8, 9}:
         raise ArgumentError("Extra unparsed arguments on command-line")
     *texts, frame_id, child_frame_id = positional

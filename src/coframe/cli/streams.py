@@ -8,11 +8,11 @@ import io
 import os
 import sys
 
-__all__ = ["accept_any_encoding", "discard_output", "flush_output", "replace_closed_streams", "undecodable"]
+__all__ = ["accept_any_encoding", "discard_output", "flush_output", "is_undecodable", "replace_closed_streams"]
 
 _HANDLER = "coframe.plain"
 # Characters in trees and text with single-character replacements, so that columns stay aligned.
-_PLAIN = {"─": "-", "│": "|", "├": "+", "└": "`", "…": ".", "×": "x", "–": "-", "—": "-", "·": "."}  # noqa: RUF001
+_ASCII_REPLACEMENTS = {"─": "-", "│": "|", "├": "+", "└": "`", "…": ".", "×": "x", "–": "-", "—": "-", "·": "."}  # noqa: RUF001
 
 
 def accept_any_encoding() -> None:
@@ -21,7 +21,7 @@ def accept_any_encoding() -> None:
     Branches of trees are then drawn with ASCII characters; other characters are escaped. Windows uses such encodings
     for redirected output, other systems where a locale or PYTHONIOENCODING says so.
     """
-    codecs.register_error(_HANDLER, _replacement)
+    codecs.register_error(_HANDLER, _replace_characters)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper) and not stream.encoding.lower().startswith("utf"):
             stream.reconfigure(errors=_HANDLER)
@@ -41,7 +41,7 @@ def replace_closed_streams() -> None:
             setattr(sys, name, os.fdopen(null, "w" if number else "r", encoding="utf-8"))
 
 
-def undecodable(word: str) -> bool:
+def is_undecodable(word: str) -> bool:
     """Return whether an argument contains invalid UTF-8 and is not the path of an existing file or folder.
 
     Python represents these bytes by lone surrogates. The names of frames, topics and new files cannot contain them.
@@ -51,7 +51,7 @@ def undecodable(word: str) -> bool:
     except UnicodeEncodeError:
         path = word.partition("=")[2] if word.startswith("--") else word
         folder, name = os.path.split(path)
-        return not (os.path.lexists(path) or (os.path.lexists(folder) and not undecodable(name)))
+        return not (os.path.lexists(path) or (os.path.lexists(folder) and not is_undecodable(name)))
     return False
 
 
@@ -76,8 +76,10 @@ def discard_output() -> None:
         os.close(null)
 
 
-def _replacement(error: UnicodeError) -> tuple[str | bytes, int]:
+def _replace_characters(error: UnicodeError) -> tuple[str | bytes, int]:
     if not isinstance(error, UnicodeEncodeError):
         raise error
     missing = error.object[error.start : error.end]
-    return "".join(_PLAIN.get(each) or each.encode("ascii", "backslashreplace").decode() for each in missing), error.end
+    return "".join(
+        _ASCII_REPLACEMENTS.get(each) or each.encode("ascii", "backslashreplace").decode() for each in missing
+    ), error.end

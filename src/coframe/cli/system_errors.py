@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import errno
 
-__all__ = ["advice_for_writing", "description"]
+__all__ = ["description", "writing_advice"]
 
 _DISK_FULL_CODES = {errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC)}
 _ADVICE = {
@@ -17,7 +17,7 @@ _ADVICE = {
 }
 
 
-def advice_for_writing(error: OSError) -> str:
+def writing_advice(error: OSError) -> str:
     """Return what to do if a file could not be written."""
     return _ADVICE[errno.ENOSPC] if error.errno in _DISK_FULL_CODES else "Check that the folder exists and is writable."
 

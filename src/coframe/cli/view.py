@@ -15,7 +15,7 @@ import click
 from coframe._process.freed_memory import return_freed_arrays
 from coframe._sources.sources import as_source
 from coframe.bags.namespaces import TransformChoice
-from coframe.bags.recording import open_chosen
+from coframe.bags.recording import open_with_choice
 from coframe.cli.completion import complete_recordings
 from coframe.cli.declaration import PATH, argument
 from coframe.cli.lifecycle import run_until_interrupted
@@ -189,26 +189,26 @@ class _ReadingProgress:
     def __init__(self, viewer: Viewer, *, browser: bool) -> None:
         self._viewer = viewer
         self._browser = browser
-        self._due = 0.0
-        self._announced = False
+        self._next_update = 0.0
+        self._is_announced = False
 
     def announce(self) -> None:
-        if not self._announced:
-            self._announced = True
+        if not self._is_announced:
+            self._is_announced = True
             announce(self._viewer, browser=self._browser)
 
     def update(self, done: int, total: int, name: str) -> None:
         self.announce()
         now = time.monotonic()
-        if now >= self._due:
-            self._due = now + self._PERIOD
+        if now >= self._next_update:
+            self._next_update = now + self._PERIOD
             self._viewer.set_title(f"{name}: {100 * done // max(total, 1)} % read")
 
 
 def _read(bag: Readable, choice: TransformChoice, progress: _ReadingProgress) -> RecordedSource:
     from coframe.viewer.sources.recorded import RecordedSource  # noqa: PLC0415 - not needed for the live graph
 
-    recording = open_chosen(bag, choice, progress=lambda done, total: progress.update(done, total, bag.name))
+    recording = open_with_choice(bag, choice, progress=lambda done, total: progress.update(done, total, bag.name))
     progress.announce()
     return RecordedSource(recording, own=True)
 

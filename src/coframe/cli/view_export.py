@@ -63,7 +63,7 @@ def write_replay(
                     progress=progress,
                 )
         _write(output, page)
-        click.echo(f"{output}: {len(page) / 1e6:.1f} MB, opens in any browser", err=True)
+        click.echo(f"{output}: {len(page) / 1e6:.1f} MB; open it in any browser", err=True)
 
 
 def _write(output: Path, page: bytes) -> None:

@@ -24,7 +24,7 @@ from rich.text import Text
 from coframe._output.formatting import join_names
 from coframe.bags import parse_time_point
 from coframe.bags.namespaces import TransformChoice
-from coframe.buffer.explanation.drawing import edge_remark, verdict
+from coframe.buffer.explanation.drawing import edge_remark, verdict_text
 from coframe.cli.completion import complete_frames
 from coframe.cli.declaration import Command, argument
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
@@ -40,7 +40,7 @@ from coframe.cli.recordings import check_has_transforms, open_recording, parse_l
 from coframe.connection.connection import Connection
 from coframe.connection.listener_config import ListenerConfig
 from coframe.doctor import Observation, diagnose
-from coframe.doctor.recorded import collecting
+from coframe.doctor.recorded import collecting_callback
 from coframe.doctor.rendering.plain import as_data
 from coframe.doctor.rendering.text import headline
 from coframe.messages import find
@@ -61,7 +61,7 @@ _NAMES = "[BAG] TARGET SOURCE"
 # The connection receives static transforms at about the same time as the doctor's node, which waits for them first.
 _CLOCK_CODES = {"TF008", "TF009", "TF010"}
 _SECOND_LISTENER = "500ms"
-_ASCII = str.maketrans("├└│─", "+`|-")
+_ASCII_BRANCHES = str.maketrans("├└│─", "+`|-")
 _STYLES = {"error": "bold red", "warning": "yellow", "note": "cyan"}
 
 
@@ -144,7 +144,7 @@ def why(
 
 def _answer_recorded(bag: str, choice: TransformChoice, target: str, source: str, at: str | None) -> _Answer:
     collectors: dict[str, Collector] = {}
-    with open_recording(bag, choice, collecting(collectors, choice)) as recording:
+    with open_recording(bag, choice, collecting_callback(collectors, choice)) as recording:
         check_has_transforms(recording)
         if at is not None and at.strip() == "now":
             fail("--at now: a recording has no current time. Give a time of the recording, or 'end'.", code=2)
@@ -187,10 +187,10 @@ def _answer(found: Explanation, seen: Sequence[Observation], notes: Iterable[str
     edges = (edge._replace(stale=False) if (edge.parent, edge.child) in alive else edge for edge in found.edges)
     found = replace(found, edges=tuple(edges))
     reports = _relevant_reports(found, seen)
-    return _Answer(_with_clock_advice(found, reports), reports, list(notes))
+    return _Answer(_add_clock_advice(found, reports), reports, list(notes))
 
 
-def _with_clock_advice(found: Explanation, reports: Iterable[Report]) -> Explanation:
+def _add_clock_advice(found: Explanation, reports: Iterable[Report]) -> Explanation:
     """Return the explanation with the advice of the finding about the clock of its edges, if that is the cause."""
     of_clocks = [one for report in reports for one in report.findings if one.code in _CLOCK_CODES]
     if found.possible or found.roots is not None or found.unknown or not of_clocks:
@@ -200,7 +200,7 @@ def _with_clock_advice(found: Explanation, reports: Iterable[Report]) -> Explana
     code = of_clocks[0].code
     names = {" -> ".join(edge) for one in of_clocks for edge in (one.edge, *one.edges) if edge is not None}
     subject = join_names(edge.name for edge in found.edges if edge.name in names)
-    return replace(found, hint=f"The stamps of {subject} are off, see {code} below. See doctor code {code}.")
+    return replace(found, hint=f"The stamps of {subject} are wrong: see {code} below. See doctor code {code}.")
 
 
 def _watch(config: ListenerConfig, target: str, source: str, at: str | None, window: int, *, as_json: bool) -> NoReturn:
@@ -285,7 +285,7 @@ def _print(answer: _Answer, *, as_json: bool) -> None:
 
 
 def _styled_lines(answer: _Answer, console: Console) -> list[Text]:
-    first, *rest = with_doctor_command(_with_fix(answer.found, str(answer.found))).split("\n")
+    first, *rest = with_doctor_command(_replace_advice(answer.found, str(answer.found))).split("\n")
     lines = [("green" if answer.found.possible else "bold red", first), *(("", line) for line in rest)]
     for report in answer.reports:
         for finding in report.findings:
@@ -293,11 +293,11 @@ def _styled_lines(answer: _Answer, console: Console) -> list[Text]:
     lines += [("", note) for note in answer.notes]
     shown = [(style, one_line(line)) for style, line in lines]
     if console.options.ascii_only:
-        shown = [(style, line.translate(_ASCII)) for style, line in shown]
+        shown = [(style, line.translate(_ASCII_BRANCHES)) for style, line in shown]
     return [Text(line, style=style) for style, line in shown]
 
 
-def _with_fix(found: Explanation, text: str) -> str:
+def _replace_advice(found: Explanation, text: str) -> str:
     """Replace the library's advice about a missing edge with the command that publishes it."""
     return text if found.missing is None else text.replace(found.missing.hint, found.missing.fix)
 
@@ -311,9 +311,9 @@ def _data(answer: _Answer) -> dict[str, Any]:
         "stamp_ns": found.stamp or None,
         "answered_ns": found.answered,
         "code": found.code or None,
-        "verdict": verdict(found),
+        "verdict_text": verdict_text(found),
         "text": found.text or None,
-        "hint": with_doctor_command(_with_fix(found, found.hint)) or None,
+        "hint": with_doctor_command(_replace_advice(found, found.hint)) or None,
         "frames": list(found.frames),
         "edges": [_edge_data(found, edge) for edge in found.edges],
         "unknown": list(found.unknown),

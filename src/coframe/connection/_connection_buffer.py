@@ -23,7 +23,7 @@ _logger = logging.getLogger("coframe.wire")
 class ConnectionBuffer(Buffer):
     """A buffer that receives transforms; it logs once that transforms stored by the program are not published."""
 
-    _explained = False
+    _has_explained = False
 
     def set(
         self,
@@ -60,9 +60,9 @@ class ConnectionBuffer(Buffer):
         return stored
 
     def _explain(self, parent: str, child: str, *, static: bool) -> None:
-        if self._explained:
+        if self._has_explained:
             return
-        self._explained = True
+        self._has_explained = True
         sender = "send_static" if static else "send"
         _logger.warning(
             "The transform %s -> %s is stored in the buffer of this process only; set() publishes nothing. To publish "

@@ -118,7 +118,7 @@ class SharedReceiver:
     def participant(self) -> Participant:
         """The participant of the subscriptions; that of the connection if another process receives the transforms."""
         own = self.transforms.participant
-        return own if own is not None else self._joined()
+        return own if own is not None else self._join_participant()
 
     @property
     def readers(self) -> list[TfReader]:
@@ -139,7 +139,7 @@ class SharedReceiver:
         """Stop using the shared transforms."""
         self.transforms.leave()
 
-    def _joined(self) -> Participant:
+    def _join_participant(self) -> Participant:
         join = self._join()
         assert join is not None, "the connection uses this object"
         return join()[0]

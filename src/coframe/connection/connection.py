@@ -63,10 +63,10 @@ class Connection:
         self._participant: Participant | None = None
         self._closing = threading.RLock()
         self._closed = False
-        self._opened = time.monotonic_ns()
+        self._opened_at = time.monotonic_ns()
         self._subscriptions: list[MessageSubscription[Any]] = []
         self._publishers: dict[tuple[str, type], MessagePublisher[Any]] = {}
-        self._statics: StaticBroadcaster | None = None
+        self._static_broadcaster: StaticBroadcaster | None = None
         self._receiver: Receiver | None = None
         try:
             self._receiver = open_receiver(self._request(shared=shared))
@@ -141,7 +141,7 @@ class Connection:
         """
         from coframe.messages.registry import find  # noqa: PLC0415 - `import coframe` must be cheap
 
-        message = _stamped(parent, child, transform, stamp)
+        message = _to_stamped(parent, child, transform, stamp)
         message_type = find(TF_MESSAGE)
         self._publisher_of(self.config.tf_topic, message_type, TF).publish(message_type(transforms=[message]))
 
@@ -162,13 +162,13 @@ class Connection:
             InvalidArgumentException: The transform is a batch.
             WireError: The connection is closed.
         """
-        message = _stamped(parent, child, transform, stamp)
+        message = _to_stamped(parent, child, transform, stamp)
         with self._closing:
             if self._closed:
                 raise _closed_error(self._name[1])
-            if self._statics is None:
-                self._statics = self.participant.static_broadcaster(self.node, self.config.tf_static_topic)
-        self._statics.send([message])
+            if self._static_broadcaster is None:
+                self._static_broadcaster = self.participant.static_broadcaster(self.node, self.config.tf_static_topic)
+        self._static_broadcaster.send([message])
 
     def _publisher_of(self, topic: str, message_type: type[M], qos: QoS) -> MessagePublisher[M]:
         """Return the publisher of :meth:`publish` and :meth:`send` on a topic, which is created once."""
@@ -255,7 +255,7 @@ class Connection:
 
     def _has_statics(self) -> bool:
         """Return whether the discovery time has passed, and each publisher of static transforms has delivered them."""
-        if self._receiver is None or time.monotonic_ns() - self._opened < _DISCOVERY:
+        if self._receiver is None or time.monotonic_ns() - self._opened_at < _DISCOVERY:
             return False
         readers = [reader for reader in self._receiver.readers if reader.static]
         # If another process receives the transforms for this one, it has the subscription.
@@ -327,7 +327,9 @@ class Connection:
         if self._closed:
             raise _closed_error(self._name[1])
         if not isinstance(topic, str):
-            raise TypeError(f"the first argument must be the topic's name, not {topic!r}; the message class is second")
+            raise TypeError(
+                f"the first argument must be the name of the topic, not {topic!r}; the second is the message class"
+            )
         if not isinstance(message_type, type) or not hasattr(message_type, "ROS_TYPE"):
             raise TypeError(
                 f"expected a message class, such as geometry_msgs.msg.PoseStamped, not {message_type!r}; "
@@ -338,7 +340,7 @@ class Connection:
         return topic if topic.startswith("/") else f"{self._name[0].rstrip('/')}/{topic}"
 
 
-def _stamped(parent: str, child: str, transform: Transform, stamp: StampLike | None) -> Message:
+def _to_stamped(parent: str, child: str, transform: Transform, stamp: StampLike | None) -> Message:
     """Return a transform as a TransformStamped message."""
     from coframe.messages.conversions import to_transform_stamped  # noqa: PLC0415 - `import coframe` must be cheap
 
@@ -349,7 +351,7 @@ def _stamped(parent: str, child: str, transform: Transform, stamp: StampLike | N
     if transform.shape:
         raise InvalidArgumentException.with_details(
             f"cannot send a batch of shape {transform.shape} as {parent} -> {child}",
-            hint="Send one transform: a loop over the batch has one after the other.",
+            hint="Send the transforms one by one, in a loop over the batch.",
         )
     frames = (transform.target or parent, transform.source or child)
     if frames != (parent, child):

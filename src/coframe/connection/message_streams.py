@@ -126,13 +126,13 @@ class MessageSubscription(Generic[M]):
         deadline = None if timeout is None else time.monotonic_ns() + duration_ns(timeout)
         while True:
             # Registered before the message is taken, so that none arrives unnoticed between the two.
-            with self._waiters.registered() as waiter:
+            with self._waiters.register_waiter() as waiter:
                 if (message := self._take()) is not None:
                     return message
                 left = None if deadline is None else deadline - time.monotonic_ns()
                 if self._subscription.closed or (left is not None and left <= 0):
                     return None
-                await _any_result(waiter, left)
+                await _wait_for_result(waiter, left)
 
     def __iter__(self) -> Iterator[M]:
         while (message := self.receive()) is not None:
@@ -148,7 +148,7 @@ class MessageSubscription(Generic[M]):
         self._event.set()
         if self._thread and self._thread is not threading.current_thread():
             self._thread.join()
-        self._waiters.wake()
+        self._waiters.wake_waiters()
 
     def _take(self) -> M | None:
         """Return the next message that has arrived; None if there is none."""
@@ -170,7 +170,7 @@ class MessageSubscription(Generic[M]):
     def _wake_waiters(self) -> None:
         while not self._subscription.closed:
             self._event.wait(None)
-            self._waiters.wake()
+            self._waiters.wake_waiters()
 
     def _call(self) -> None:
         while not self._subscription.closed:
@@ -198,8 +198,8 @@ class _LoopWaiters:
         self._futures: list[asyncio.Future[None]] = []
 
     @contextlib.contextmanager
-    def registered(self) -> Iterator[asyncio.Future[None]]:
-        """Create a future of the running event loop that the next `wake` completes."""
+    def register_waiter(self) -> Iterator[asyncio.Future[None]]:
+        """Create a future of the running event loop that the next `wake_waiters` completes."""
         import asyncio  # noqa: PLC0415 - asyncio takes as long to import as all of coframe, and few programs need it
 
         future: asyncio.Future[None] = asyncio.get_running_loop().create_future()
@@ -211,7 +211,7 @@ class _LoopWaiters:
             with self._lock, contextlib.suppress(ValueError):
                 self._futures.remove(future)
 
-    def wake(self) -> None:
+    def wake_waiters(self) -> None:
         with self._lock:
             futures, self._futures = self._futures, []
         for future in futures:
@@ -224,7 +224,7 @@ def _complete(future: asyncio.Future[None]) -> None:
         future.set_result(None)
 
 
-async def _any_result(future: asyncio.Future[None], timeout_ns: int | None) -> None:
+async def _wait_for_result(future: asyncio.Future[None], timeout_ns: int | None) -> None:
     """Wait until a future is completed, or for a time."""
     import asyncio  # noqa: PLC0415
 

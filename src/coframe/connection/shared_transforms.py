@@ -109,7 +109,7 @@ class SharedTransforms:
         with cls._lock:
             for generation in range(GENERATIONS):
                 shared = cls._instances.get((config, generation)) or cls._open(config, generation, on_mismatch)
-                if shared is not None and not shared.outdated:
+                if shared is not None and not shared.is_outdated:
                     shared._users += 1  # noqa: SLF001 - of this class
                     return shared
         raise _core.SegmentError(f"static transforms were withdrawn in all {GENERATIONS} generations of the memory")
@@ -158,12 +158,12 @@ class SharedTransforms:
         return self._segment.follow(buffer, authority)
 
     @property
-    def outdated(self) -> bool:
+    def is_outdated(self) -> bool:
         """Whether they contain static transforms that are no longer published."""
         return self._segment.outdated
 
     @property
-    def writes(self) -> bool:
+    def is_writer(self) -> bool:
         """Whether this process is the writer, which receives the transforms."""
         return self._hub is not None
 
@@ -209,7 +209,7 @@ class SharedTransforms:
 
     def _report_shortage(self) -> None:
         """Log once when the memory becomes full or is lost."""
-        while self.writes:
+        while self.is_writer:
             if self._segment.lost:
                 _logger.error(
                     "Another program has truncated the file of the shared transforms in /dev/shm: this process no "
@@ -217,7 +217,7 @@ class SharedTransforms:
                 )
                 return
             if shortage := self._segment.shortage:
-                _logger.warning(full(shortage))
+                _logger.warning(full_memory_warning(shortage))
                 return
             if self._closed.wait(_CHECK_PERIOD):
                 return
@@ -235,16 +235,20 @@ class SharedTransforms:
                         self._close_hub()
                     return
             except _core.SegmentError as error:
-                _logger.warning("This process cannot receive the shared transforms; another process has to: %s", error)
+                _logger.warning(
+                    "This process cannot receive the shared transforms; another process must receive them: %s", error
+                )
                 self._segment.close()
                 return
             except Exception:
-                _logger.exception("This process cannot receive the shared transforms; another process has to.")
+                _logger.exception(
+                    "This process cannot receive the shared transforms; another process must receive them."
+                )
                 self._segment.close()
                 return
             self._segment.wait_for_vacancy(_VACANCY_TIMEOUT)
             if self.writer_is_suspended and not warned:
-                _logger.warning(suspension(self.writer_process))
+                _logger.warning(suspension_warning(self.writer_process))
             warned = self.writer_is_suspended
             self._closed.wait(_RETRY_PAUSE)
 
@@ -317,7 +321,7 @@ def is_suspended(process: int) -> bool:
     return status.rpartition(")")[2].split()[:1] in (["T"], ["t"])
 
 
-def suspension(process: int) -> str:
+def suspension_warning(process: int) -> str:
     """Return a warning about a suspended process that receives the shared transforms."""
     return (
         f"Process {process}, which receives the shared transforms, is suspended: no new transforms are stored until it "
@@ -325,7 +329,7 @@ def suspension(process: int) -> str:
     )
 
 
-def full(shortage: str) -> str:
+def full_memory_warning(shortage: str) -> str:
     """Return a warning about shared memory that cannot grow; `shortage` is the reason."""
     return (
         f"The memory of the shared transforms is full: {shortage}. New frames are rejected, and the oldest samples are "

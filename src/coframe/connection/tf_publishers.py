@@ -39,7 +39,7 @@ class TfPublisher(NamedTuple):
         lag: The delay of its stamps relative to the clock of this machine on arrival, in nanoseconds: the lower
             quartile of the last messages. Negative if the stamps are ahead. None if it is static or there are too
             few messages.
-        present: Whether the publisher is still on the graph.
+        is_present: Whether the publisher is still on the graph.
         naming_problems: Warnings about its frame names.
     """
 
@@ -50,7 +50,7 @@ class TfPublisher(NamedTuple):
     age: float
     period: float
     lag: int | None
-    present: bool
+    is_present: bool
     naming_problems: list[str]
 
     def stale(self) -> bool:
@@ -92,9 +92,9 @@ def publisher_state(publishers: Iterable[TfPublisher]) -> str:
     dynamic = [publisher for publisher in received if not publisher.static]
     if not received:
         return "waiting"
-    if not any(publisher.present for publisher in received):
+    if not any(publisher.is_present for publisher in received):
         return "gone"
-    if dynamic and not any(publisher.present and not publisher.stale() for publisher in dynamic):
+    if dynamic and not any(publisher.is_present and not publisher.stale() for publisher in dynamic):
         return "stale"
     return "live"
 
@@ -105,21 +105,21 @@ def publishers_of(participant: Participant, reader: TfReader) -> list[TfPublishe
     if not received:
         return []
     topic = any_ros_name(reader.topic)
-    present = participant.writers(topic)
+    is_present = participant.writers(topic)
     return [
         tf_publisher(
             statistics,
             participant.writer_node(statistics.writer),
             topic,
             static=reader.static,
-            present=statistics.writer in present,
+            is_present=statistics.writer in is_present,
         )
         for statistics in received
     ]
 
 
 def tf_publisher(
-    statistics: WriterStatistics, node: str | None, topic: str, *, static: bool, present: bool
+    statistics: WriterStatistics, node: str | None, topic: str, *, static: bool, is_present: bool
 ) -> TfPublisher:
     """Return a publisher from the statistics of its writer.
 
@@ -128,7 +128,7 @@ def tf_publisher(
         node: The full name of its node; None if it is unknown.
         topic: The topic on which the writer publishes.
         static: Whether its transforms are static.
-        present: Whether the writer is still on the graph.
+        is_present: Whether the writer is still on the graph.
     """
     node = node or "an unnamed node"
     age = max(0, time.monotonic_ns() - statistics.received_at) / SECOND
@@ -136,4 +136,4 @@ def tf_publisher(
         f"{node} on {topic}", statistics.slashed, statistics.prefixed, statistics.plain
     )
     period = statistics.period / SECOND
-    return TfPublisher(node, topic, static, statistics.messages, age, period, statistics.lag, present, problems)
+    return TfPublisher(node, topic, static, statistics.messages, age, period, statistics.lag, is_present, problems)

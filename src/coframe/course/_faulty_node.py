@@ -26,7 +26,7 @@ def _start_late(_module: Any) -> None:
     time.sleep(_DELAY)
 
 
-def _offset(_module: Any) -> None:
+def _offset_stamps(_module: Any) -> None:
     def shift(transforms: list[Any]) -> list[Any]:
         stamps = {id(each.header.stamp): each.header.stamp for each in transforms}  # transforms may share one
         for stamp in stamps.values():
@@ -36,11 +36,11 @@ def _offset(_module: Any) -> None:
     _change_transforms(shift)
 
 
-def _dropout(_module: Any) -> None:
+def _drop_transforms(_module: Any) -> None:
     _change_transforms(lambda transforms: [] if time.monotonic() % _PERIOD < _DROPOUT else transforms)
 
 
-def _degrees(module: Any) -> None:
+def _use_degrees(module: Any) -> None:
     broadcast = module.DynamicFramePublisher.broadcast_arm_transforms
     module.DynamicFramePublisher.broadcast_arm_transforms = lambda self, q1, q2, stamp: broadcast(
         self, math.degrees(q1), math.degrees(q2), stamp
@@ -63,9 +63,9 @@ def _stop_listener(module: Any) -> None:
 
 _FAULTS: dict[str, Callable[[Any], None]] = {
     "late": _start_late,
-    "offset": _offset,
-    "dropout": _dropout,
-    "degrees": _degrees,
+    "offset": _offset_stamps,
+    "dropout": _drop_transforms,
+    "degrees": _use_degrees,
     "wrong parent": _change_parent,
     "dead": _stop_listener,
 }

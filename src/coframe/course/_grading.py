@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 __all__ = ["main"]
 
-_SEARCHABLE = 0o711
+_SEARCHABLE_MODE = 0o711
 
 
 def main() -> None:
@@ -53,7 +53,7 @@ def main() -> None:
         path.mkdir()
         limit_disk(path)
     for path in (scratch.parent, scratch, homes):
-        path.chmod(_SEARCHABLE)  # If this process runs as root, programs run as other users.
+        path.chmod(_SEARCHABLE_MODE)  # If this process runs as root, programs run as other users.
     adopt_orphans()
     signal.signal(signal.SIGINT, lambda _number, _frame: None)  # A program can send this signal to its parent.
     confinement = Confinement(folder, scratch, job["private"], has_namespaces=is_isolated(), number=job["number"])

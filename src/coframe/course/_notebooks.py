@@ -18,7 +18,7 @@ __all__ = ["Cell", "cells", "notebook"]
 
 _CODE = re.compile(r"^```python\n(?P<block>.*?)^```\n|^<!-- notebook:(?P<comment>.*?)-->\n", re.MULTILINE | re.DOTALL)
 # In a notebook, the view replaces the image.
-_PICTURE = re.compile(r"^!\[[^]]*\]\(\d\d_\w+\.webp\)\n+", re.MULTILINE)
+_IMAGE_LINE = re.compile(r"^!\[[^]]*\]\(\d\d_\w+\.webp\)\n+", re.MULTILINE)
 _CHAPTER_LINK = re.compile(r"\]\((\d\d_\w+)\.md(#[\w-]*)?\)")
 _RELATIVE_LINK = re.compile(r"\]\((?!\w+:|#|\d\d_\w+\.ipynb)([^)]+)\)")
 
@@ -37,7 +37,7 @@ class Cell(NamedTuple):
 
 def cells(chapter: Path) -> Iterator[Cell]:
     """Yield the cells of a chapter."""
-    text = _PICTURE.sub("", chapter.read_text(encoding="utf-8"))
+    text = _IMAGE_LINE.sub("", chapter.read_text(encoding="utf-8"))
     end = 0
     for found in _CODE.finditer(text):
         yield from _markdown(text[end : found.start()])

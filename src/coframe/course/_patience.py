@@ -27,11 +27,14 @@ class FairTimeout:
         self._seconds = seconds
         self._waiting_time = waiting_time
         self._start = time.monotonic()
-        self._waited = waiting_time()
+        self._last_waiting_time = waiting_time()
 
     def is_over(self) -> bool:
         """Return whether the time is up."""
         passed = time.monotonic() - self._start
         if passed < self._seconds:
             return False
-        return passed > _MAX_FACTOR * self._seconds or passed - (self._waiting_time() - self._waited) > self._seconds
+        return (
+            passed > _MAX_FACTOR * self._seconds
+            or passed - (self._waiting_time() - self._last_waiting_time) > self._seconds
+        )

@@ -59,12 +59,12 @@ class StudentProgram:
         self.file = file
         self.violation = ""
         self._confinement = confinement
-        self._home = scratch / HOMES / file.stem
+        self._home_folder = scratch / HOMES / file.stem
         self._log = scratch / f"{file.stem}.log"
         self._process: subprocess.Popen[bytes] | None = None
-        self._main: int | None = None  # the process that runs the student's code
-        self._checked = 0.0
-        self._others: list[int] = []  # processes of the grader, such as the recorder
+        self._main_process: int | None = None  # the process that runs the student's code
+        self._checked_at = 0.0
+        self._grader_processes: list[int] = []  # processes of the grader, such as the recorder
         self._exit_code: int | None = None
 
     def start(self, *words: str, request: bytes = b"") -> None:
@@ -74,19 +74,19 @@ class StudentProgram:
             words: The arguments of ``python``; without any, the program starts with the simulated clock.
             request: The standard input.
         """
-        self._home.mkdir(parents=True, exist_ok=True)
+        self._home_folder.mkdir(parents=True, exist_ok=True)
         words = words or (str(self.file), "--ros-args", "-p", "use_sim_time:=true")
-        self._others = _processes.children()
+        self._grader_processes = _processes.children()
         with self._log.open("wb") as log, tempfile.TemporaryFile() as given:
             given.write(request)
             given.seek(0)
             self._process = subprocess.Popen(  # noqa: S603 - the purpose of the lab; _confinement.py describes what protects
-                self._confinement.command(self._home, *words),
+                self._confinement.command(self._home_folder, *words),
                 stdin=given if request else subprocess.DEVNULL,
                 stdout=log,
                 stderr=log,
                 cwd=self._confinement.working_folder,
-                env=self._confinement.environment(self._home),
+                env=self._confinement.environment(self._home_folder),
                 start_new_session=True,  # Only the grader receives Ctrl-C, and all its processes are one group.
             )
 
@@ -114,8 +114,8 @@ class StudentProgram:
         """Return whether the program is running; end it if it has exceeded a limit."""
         if self._process is None or self._process.poll() is not None:
             return False
-        if time.monotonic() - self._checked > _CHECK_PERIOD:
-            self._checked = time.monotonic()
+        if time.monotonic() - self._checked_at > _CHECK_PERIOD:
+            self._checked_at = time.monotonic()
             self.violation = self.violation or self._exceeded_limit()
             if self.violation:
                 self._kill()
@@ -150,12 +150,12 @@ class StudentProgram:
 
     def _find_main(self) -> int | None:
         """Return the process of the student's code (a grandchild if it has namespaces); None before it exists."""
-        if self._main is None and self._process is not None:
+        if self._main_process is None and self._process is not None:
             if not self._confinement.has_namespaces:
-                self._main = self._process.pid
+                self._main_process = self._process.pid
             elif (first := self._first_process()) is not None:
-                self._main = next(iter(_processes.children(first)), None)
-        return self._main
+                self._main_process = next(iter(_processes.children(first)), None)
+        return self._main_process
 
     def _first_process(self) -> int | None:
         """Return the first process in the namespaces of the program, the parent of all others."""
@@ -173,7 +173,7 @@ class StudentProgram:
         except OSError:
             return b""
 
-    def crash(self) -> str:
+    def crash_reason(self) -> str:
         """Return why a program exited prematurely; "" if it ran until it was stopped."""
         if self.violation:
             return self.violation
@@ -185,7 +185,7 @@ class StudentProgram:
             return _OUTPUT_VIOLATION
         last = self.last_lines()
         if code == 0:
-            return "The program exited by itself: it needs rclpy.spin(node)."
+            return "The program exited by itself. Call rclpy.spin(node)."
         error = next((line for line in reversed(last) if line.strip()), "")
         if code < 0 or code > _SIGNAL_OFFSET:
             return f"The program was terminated by signal {-code if code < 0 else code - _SIGNAL_OFFSET}."
@@ -227,14 +227,14 @@ class StudentProgram:
             return f"The program used more than {MAX_MEMORY >> 20} MB of memory and was stopped."
         if _processes.own_memory() > MAX_MEMORY:
             return "The program published more data than the check can store and was stopped."
-        if _is_larger(self._home, MAX_FILES):
+        if _is_larger(self._home_folder, MAX_FILES):
             return f"The program wrote more than {MAX_FILES >> 20} MB or {_MAX_FILES} files and was stopped."
         return ""
 
     def _running_processes(self) -> list[_processes.Process]:
         """Return the processes of the program, except those that confine it."""
         if not self._confinement.has_namespaces:
-            return _processes.descendants(without=self._others)
+            return _processes.descendants(without=self._grader_processes)
         first = self._first_process()
         return [] if first is None else _processes.descendants(of=first)
 
@@ -244,7 +244,7 @@ class StudentProgram:
         self._process.kill()
         self._process.wait()
         for _ in range(_MAX_KILL_ATTEMPTS):  # A process may start another one before it is killed.
-            left = _processes.descendants(without=self._others)
+            left = _processes.descendants(without=self._grader_processes)
             if not left:
                 break
             for each in left:

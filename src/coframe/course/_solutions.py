@@ -59,7 +59,7 @@ def solution_problem(name: str) -> str:
     """
     package, _, file = name.partition("/")
     files = f"its file {file}" if file else "its files"
-    return f"The program imports {package}, which contains solutions, or reads {files}. It gets no points."
+    return f"The program imports {package}, which contains solutions, or reads {files}. The program gets no points."
 
 
 class Decoys:
@@ -78,7 +78,7 @@ class Decoys:
             place: An empty folder, or one that does not exist.
         """
         self.folders: dict[str, str] = {}
-        self._watched: dict[int, str] = {}
+        self._watched_folders: dict[int, str] = {}
         self._events: int | None = None
         # The limit per user may be reached. Imports are then still reported by their exception.
         with contextlib.suppress(OSError):
@@ -98,7 +98,7 @@ class Decoys:
         found = ""
         for number, flags, name in self._read():
             if not flags & _IS_FOLDER:
-                found = found or f"{self._watched.get(number, SOLUTIONS[0])}/{name}"
+                found = found or f"{self._watched_folders.get(number, SOLUTIONS[0])}/{name}"
         return found
 
     def _read(self) -> Iterator[tuple[int, int, str]]:
@@ -124,4 +124,4 @@ class Decoys:
             if self._events is not None:
                 with contextlib.suppress(OSError):
                     number = c_function("inotify_add_watch", self._events, os.fsencode(folder), _OPENED)
-                    self._watched[number] = package
+                    self._watched_folders[number] = package

@@ -61,7 +61,7 @@ def private_folders(folder: Path) -> list[str]:
     found = [Path(path) for path in (*_PRIVATE_FOLDERS, tempfile.gettempdir())]
     found += [Path.cwd(), folder.resolve().parent, *_sources()]
     home = os.path.expanduser("~")  # noqa: PTH111 - pathlib fails if there is none
-    found += [Path(path) for path in (home, _home_of_account()) if os.path.isabs(path)]  # noqa: PTH117
+    found += [Path(path) for path in (home, _account_home()) if os.path.isabs(path)]  # noqa: PTH117
     return sorted({os.path.realpath(path) for path in found})
 
 
@@ -78,17 +78,17 @@ def view_of(folder: Path, private: Iterable[str], solutions: Iterable[str]) -> V
     packages = {os.path.realpath(path) for path in sysconfig.get_paths().values()}
     hidden = {path for path in private if not any(_is_below(path, each) for each in packages)}
     installed = {os.path.realpath(path) for path in _installations()} - {*map(os.path.realpath, _PRIVATE_FOLDERS)}
-    installed = {part for path in installed for part in _installed_parts(path, hidden)}
+    installed = {part for path in installed for part in _find_installed_parts(path, hidden)}
     others = {os.path.realpath(path) for path in _packages()}
     others = {path for path in others if not any(_is_below(each, path) for each in hidden)}
     readable = {own} | {path for path in installed | others if exists(Path(path))}
     hidden = {path for path in hidden - readable if not _is_below(path, own)}
-    hidden |= (secret := {*map(os.path.realpath, solutions), *_secrets()})
+    hidden |= (secret := {*map(os.path.realpath, solutions), *_find_secrets()})
     readable = {path for path in readable if path == own or not any(_is_below(path, each) for each in secret)}
-    return View(_without_effectless(readable, hidden - {own}), sorted(_links(own)))
+    return View(_remove_redundant(readable, hidden - {own}), sorted(_links(own)))
 
 
-def _without_effectless(readable: set[str], hidden: set[str]) -> list[tuple[str, bool]]:
+def _remove_redundant(readable: set[str], hidden: set[str]) -> list[tuple[str, bool]]:
     """Return the entries without redundant ones."""
     found: dict[str, bool] = {}
     for path in sorted(readable | hidden):
@@ -106,10 +106,10 @@ def _is_below(path: str, folder: str) -> bool:
 
 def _installations() -> Iterator[str]:
     yield from (*_SYSTEM, sys.prefix, sys.base_prefix, sys.exec_prefix, sys.base_exec_prefix)
-    yield from _listed_folders(_INSTALLATIONS)
+    yield from _folders_in_variables(_INSTALLATIONS)
 
 
-def _installed_parts(path: str, private: set[str]) -> Iterator[str]:
+def _find_installed_parts(path: str, private: set[str]) -> Iterator[str]:
     """Yield an installation; only its own folders if it is in a folder with other files, such as a project."""
     is_system = any(_is_below(path, os.path.realpath(folder)) for folder in _SYSTEM)
     if is_system or not any(_is_below(each, path) for each in private):
@@ -120,7 +120,7 @@ def _installed_parts(path: str, private: set[str]) -> Iterator[str]:
 
 def _packages() -> Iterator[str]:
     yield from (path for path in sys.path if os.path.isabs(path))  # noqa: PTH117
-    yield from _listed_folders(_FOLDERS)
+    yield from _folders_in_variables(_FOLDERS)
     yield from _absolute_path(os.environ.get(_DDS_CONFIGURATION, "").removeprefix("file://"))
     # The packages and libraries that the grader itself has loaded.
     for module in tuple(sys.modules.values()):
@@ -131,7 +131,7 @@ def _packages() -> Iterator[str]:
                 yield os.path.dirname("/" + line.partition("/")[2])  # noqa: PTH120
 
 
-def _secrets() -> Iterator[str]:
+def _find_secrets() -> Iterator[str]:
     """Yield configuration files that not everyone may read, because root and therefore programs could read them."""
     for path, folders, files in os.walk(_CONFIGURATION):
         for name in (*files, *folders):
@@ -143,7 +143,7 @@ def _secrets() -> Iterator[str]:
                     yield entry
 
 
-def _listed_folders(variables: Iterable[str]) -> Iterator[str]:
+def _folders_in_variables(variables: Iterable[str]) -> Iterator[str]:
     for name in variables:
         for path in os.environ.get(name, "").split(os.pathsep):
             yield from _absolute_path(path)
@@ -179,7 +179,7 @@ def _sources() -> list[Path]:
     return [Path(unquote(address.path))] if address.scheme == "file" else []
 
 
-def _home_of_account() -> str:
+def _account_home() -> str:
     try:
         import pwd  # noqa: PLC0415 - not on Windows
 

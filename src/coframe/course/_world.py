@@ -32,7 +32,7 @@ __all__ = ["MAX_MESSAGES", "STEP", "Received", "World", "stamp_of"]
 
 STEP = 10 * MILLISECOND  # step of the simulated clock
 _START = 1000 * SECOND
-_NOT_JOINED_VIOLATION = "The program does not join the ROS graph: it needs rclpy.init() and a node that spins."
+_NOT_JOINED_VIOLATION = "The program does not join the ROS graph. Call rclpy.init() and spin a node."
 _NODE = "lab_check"
 _RECORDER = "/coframe_record"  # the node of coframe record, which runs next to all programs
 _CLOCK = "/clock"
@@ -41,7 +41,7 @@ _RESPONSE = 1.0  # seconds that a node may take for one callback, see Patience
 _MATCHING = 2.0  # seconds that a subscription may need to find a publisher, see Patience
 _MAX_MISSING_RESPONSES = 5  # responses after which the world stops waiting for the node
 MAX_MESSAGES = 1000  # per program and step; at the highest rate of the lab, it publishes one
-_TOO_MANY_MESSAGES = "The program publishes without pausing and was stopped: it needs a timer."
+_TOO_MANY_MESSAGES = "The program publishes without a pause and was stopped. Publish in the callback of a timer."
 _GRAPH_PERIOD = 25 * STEP  # seconds between two checks of the publishers of the world's topics
 _QUIET_TIME = 0.002  # seconds of real time without a message after which a step is complete
 _UNRESPONSIVE_STEP_TIME = 0.01  # seconds of real time per step for a node that does not respond
@@ -76,7 +76,7 @@ class World:
         self._subscriptions: list[Any] = []
         self._messages = self._messages_before = 0
         self._probes: deque[Any] = deque()
-        self._missed = 0
+        self._missed_steps = 0
         self._intruders: dict[str, set[str]] = {}
         self._program: StudentProgram | None = None
 
@@ -158,7 +158,7 @@ class World:
         self._program = program
         self._intruders.clear()
         self._messages_before = self._messages
-        self._missed = 0
+        self._missed_steps = 0
         program.start()
         patience = FairTimeout(_START_TIMEOUT, program.waiting_time)
         while not patience.is_over() and program.is_running():
@@ -219,7 +219,7 @@ class World:
         # received the clock, the second one that the timers triggered by it have run.
         for _ in range(2):
             self._await_responses()
-        if not self._probes or self._missed >= _MAX_MISSING_RESPONSES:
+        if not self._probes or self._missed_steps >= _MAX_MISSING_RESPONSES:
             time.sleep(_UNRESPONSIVE_STEP_TIME)
         first, count = self._messages, -1
         while count != self._messages:
@@ -230,7 +230,7 @@ class World:
                 break
 
     def _await_responses(self) -> None:
-        if self._missed >= _MAX_MISSING_RESPONSES:
+        if self._missed_steps >= _MAX_MISSING_RESPONSES:
             return
         futures = [probe.call_async(GetParameters.Request(names=["use_sim_time"])) for probe in self._probes]
         patience = FairTimeout(_RESPONSE, self._waiting_time)
@@ -238,9 +238,9 @@ class World:
             for future in futures:
                 self._executor.spin_until_future_complete(future, timeout_sec=_RESPONSE / 4)
         if all(future.done() for future in futures):
-            self._missed = 0
+            self._missed_steps = 0
             return
-        self._missed += 1
+        self._missed_steps += 1
 
     def _waiting_time(self) -> float:
         return 0.0 if self._program is None else self._program.waiting_time()

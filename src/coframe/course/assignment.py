@@ -15,9 +15,9 @@ from coframe.errors import CourseError
 if TYPE_CHECKING:
     from pathlib import Path
 
-__all__ = ["FILE", "Assignment", "Mount", "assignment_of", "read_assignment"]
+__all__ = ["ASSIGNMENT_FILE", "Assignment", "Mount", "assignment_of", "read_assignment"]
 
-FILE = "lab.json"  # in a student's folder; contains the variant's seed
+ASSIGNMENT_FILE = "lab.json"  # in a student's folder; contains the variant's seed
 _LAB = "09-02"
 NO_ROTATION = (0.0, 0.0, 0.0, 1.0)
 # A rotation of 90 degrees about y: the z axis of the camera points along the gripper.
@@ -101,7 +101,7 @@ def read_assignment(folder: Path) -> Assignment:
     Raises:
         CourseError: The file is damaged, or belongs to another lab.
     """
-    path = folder / FILE
+    path = folder / ASSIGNMENT_FILE
     if not os.path.lexists(path):
         return Assignment()
     try:

@@ -128,7 +128,7 @@ def _report(folder: Path, results: _Results, missing: Sequence[str], reason: str
     notices = [problem] if (problem := isolation_problem()) else []
     if missing:
         names = ", ".join(RUBRIC[name].name for name in missing)
-        notices.append(f"{_upper(reason)}. These criteria were not checked: {names}. The other points count.")
+        notices.append(f"{_capitalize(reason)}. These criteria were not checked: {names}. The other points count.")
     sheets = results.sheets + [Sheet.not_reached(RUBRIC[name], reason) for name in missing]
     return GradeReport(str(folder.resolve()), results.variant, sheets, notices).as_dict()
 
@@ -145,12 +145,13 @@ def submissions(folder: Path) -> dict[str, Path]:
     students = [path for path in sorted(folder.glob("*/")) if path.is_dir() and not path.name.startswith((".", "__"))]
     if not students:
         raise CourseError(
-            f"No submissions in {folder}.", hint="It must contain a folder for each student, with the student's files."
+            f"No submissions in {folder}.",
+            hint="The folder must contain a folder for each student, with the student's files.",
         )
-    return {student.name: student if student.is_symlink() else _lab_below(student) for student in students}
+    return {student.name: student if student.is_symlink() else _find_lab_folder(student) for student in students}
 
 
-def _lab_below(student: Path) -> Path:
+def _find_lab_folder(student: Path) -> Path:
     """Return the folder with the most lab files, at most two levels below the folder of a student.
 
     Links to folders are not followed, and links do not count as lab files.
@@ -213,7 +214,7 @@ def check_class(
             pool.shutdown(wait=False, cancel_futures=True)
 
 
-def _upper(text: str) -> str:
+def _capitalize(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 

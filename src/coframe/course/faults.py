@@ -42,7 +42,7 @@ _LISTENER, _SENSOR = _node("tf_listener"), _node("sensor_transform")
 _LIDAR = _node("simulated_lidar", "fixed_frame:=base_link")
 _DESCRIPTION = module_program("robot_description", "coframe.course._description")  # the doctor compares with it
 _JOINTS = _node("dynamic_tf_broadcaster", "publish_joint_states:=true", title="joint_driver")
-_HALF = 0.5**0.5
+_SQRT_HALF = 0.5**0.5
 
 FAULTS = (
     Fault(
@@ -87,7 +87,7 @@ FAULTS = (
         "The rotation of the camera is in the order w, x, y, z instead of x, y, z, w.",
         (
             _DESCRIPTION,
-            _node("static_tf_broadcaster", f"camera_rotation:=[{_HALF}, 0.0, {_HALF}, 0.0]"),
+            _node("static_tf_broadcaster", f"camera_rotation:=[{_SQRT_HALF}, 0.0, {_SQRT_HALF}, 0.0]"),
             _DYNAMIC,
             _LISTENER,
             _LIDAR,

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from coframe._files.complete_files import write_complete
-from coframe.course.assignment import FILE, assignment_file, assignment_of
+from coframe.course.assignment import ASSIGNMENT_FILE, assignment_file, assignment_of
 from coframe.errors import CourseError
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ def create_folder(folder: Path, variant: int | None) -> list[Path]:
     """
     assignment = assignment_of(variant)
     names = file_names()
-    existing = [name for name in (FILE, *names) if (folder / name).exists()]
+    existing = [name for name in (ASSIGNMENT_FILE, *names) if (folder / name).exists()]
     if existing:
         raise CourseError(
             f"{folder} already contains {', '.join(existing)}.", hint="Choose another folder: nothing is overwritten."
@@ -46,15 +46,15 @@ def create_folder(folder: Path, variant: int | None) -> list[Path]:
         for name in names:
             text = (_TEMPLATES / f"{name}{_SUFFIX}").read_text(encoding="utf-8")
             write_complete(folder / name, _fill_template(text, assignment).encode())
-        write_complete(folder / FILE, assignment_file(assignment).encode())
+        write_complete(folder / ASSIGNMENT_FILE, assignment_file(assignment).encode())
     except OSError as error:
-        for name in (*names, FILE):
+        for name in (*names, ASSIGNMENT_FILE):
             with suppress(OSError):  # The file was not written yet.
                 (folder / name).unlink()
         raise CourseError(
             f"Cannot write {error.filename or folder}: {error.strerror}.", hint="Choose another folder."
         ) from None
-    return [folder / name for name in (*names, FILE)]
+    return [folder / name for name in (*names, ASSIGNMENT_FILE)]
 
 
 def file_names() -> list[str]:

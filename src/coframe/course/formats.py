@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["classroom", "csv_row", "gradescope", "text", "ungraded"]
+__all__ = ["classroom", "csv_row", "gradescope", "text", "ungraded_report"]
 
 _WIDTH = 100
 _FOLDER = "Folder"  # represents all criteria of a folder that could not be graded
@@ -21,13 +21,13 @@ def text(report: dict[str, Any]) -> Iterator[str]:
         if _is_skipped(criterion):
             continue
         bonus = " bonus" if criterion["bonus"] else ""
-        yield f"{criterion['name']} ({criterion['file']}): {_pair(criterion)}{bonus}"
+        yield f"{criterion['name']} ({criterion['file']}): {_points_text(criterion)}{bonus}"
         if criterion["problem"]:
             yield from _indent(criterion["problem"], "  ! ")
             yield from (f"    | {line}" for line in criterion["last_lines"])
         for fact in criterion["facts"]:
             lost = fact["earned"] < fact["points"]
-            yield f"  {'-' if lost else '+'} {_pair(fact)}  {fact['name']}"
+            yield f"  {'-' if lost else '+'} {_points_text(fact)}  {fact['name']}"
             if lost and fact["cause"]:  # The problem above explains the others.
                 yield from _indent(fact["expected"], "        expected: ")
                 yield from _indent(fact["observed"], "        observed: ")
@@ -35,10 +35,10 @@ def text(report: dict[str, Any]) -> Iterator[str]:
                 yield from _indent(fact["read"], "        read: ")
         yield ""
     yield from report["notices"]
-    yield _sum(report)
+    yield _total_line(report)
 
 
-def _sum(report: dict[str, Any]) -> str:
+def _total_line(report: dict[str, Any]) -> str:
     """Return the last line: the grade, or the points of a part of the check."""
     points, bonus_points = (
         sum(each["points"] for each in report["criteria"] if each["bonus"] is bonus) for bonus in (False, True)
@@ -53,10 +53,10 @@ def _sum(report: dict[str, Any]) -> str:
 
 def _is_skipped(criterion: dict[str, Any]) -> bool:
     """Return whether a criterion is an extension that the student has not attempted."""
-    return bool(criterion["bonus"]) and criterion["problem"].startswith("There is no file")
+    return bool(criterion["bonus"]) and criterion["problem"].startswith("The file does not exist")
 
 
-def _pair(item: dict[str, Any]) -> str:
+def _points_text(item: dict[str, Any]) -> str:
     return f"{item['earned']:g} / {item['points']:g}"
 
 
@@ -66,7 +66,7 @@ def _indent(content: str, start: str) -> list[str]:
     return textwrap.wrap(content, _WIDTH, initial_indent=start, subsequent_indent=" " * len(start))
 
 
-def ungraded(folder: str, problem: str) -> dict[str, Any]:
+def ungraded_report(folder: str, problem: str) -> dict[str, Any]:
     """Return the report of a folder that could not be graded: no points, and the reason."""
     fact = {"name": "the folder can be graded", "points": 100, "earned": 0.0, "cause": "", "read": ""}
     fact |= {"expected": "a folder that can be graded", "observed": problem}

@@ -91,7 +91,7 @@ def write_pages(folder: Path) -> Path:
         folder.mkdir(parents=True, exist_ok=True)
         for file in source.glob("*.md"):
             _target(folder, file).write_text(_page(file.read_text(encoding="utf-8")), encoding="utf-8")
-        for picture in _pictures(source):
+        for picture in _find_images(source):
             shutil.copyfile(picture, folder / picture.name)
         (folder / _NOTEBOOKS).mkdir(exist_ok=True)
         for chapter in chapters():
@@ -107,7 +107,7 @@ def _target(folder: Path, file: Path) -> Path:
     return folder / ("index.html" if file.name == _CONTENTS else f"{file.stem}.html")
 
 
-def _pictures(folder: Path) -> list[Path]:
+def _find_images(folder: Path) -> list[Path]:
     return [file for file in folder.iterdir() if file.suffix in {".svg", ".png", ".jpg", ".gif", ".webp"}]
 
 

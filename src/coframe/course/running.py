@@ -19,10 +19,18 @@ from coframe.errors import CourseError
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-__all__ = ["COMPLETE_TREE", "SIMULATION", "STEPS", "NamedCommand", "module_program", "programs_of", "running"]
+__all__ = [
+    "COMPLETE_TREE_FILES",
+    "NODE_FILES",
+    "SIMULATION",
+    "NamedCommand",
+    "module_program",
+    "programs_of",
+    "running",
+]
 
-STEPS = ("static_tf_broadcaster.py", "dynamic_tf_broadcaster.py", "tf_listener.py", "sensor_transform.py")
-COMPLETE_TREE = ("complete_tf_tree.py", "tf_listener.py", "sensor_transform.py")
+NODE_FILES = ("static_tf_broadcaster.py", "dynamic_tf_broadcaster.py", "tf_listener.py", "sensor_transform.py")
+COMPLETE_TREE_FILES = ("complete_tf_tree.py", "tf_listener.py", "sensor_transform.py")
 _STOP_TIMEOUT = 3.0  # seconds between SIGINT and SIGKILL
 
 
@@ -92,7 +100,9 @@ def running(programs: Sequence[NamedCommand], write: Callable[[str, str], None])
                 start_new_session=True,  # Only this process receives Ctrl-C; it stops the others.
             )
             processes.append((program, process))
-            thread = threading.Thread(target=_forward, args=(program.name, process, write, stopping), daemon=True)
+            thread = threading.Thread(
+                target=_forward_output, args=(program.name, process, write, stopping), daemon=True
+            )
             thread.start()
             threads.append(thread)
         yield
@@ -103,7 +113,7 @@ def running(programs: Sequence[NamedCommand], write: Callable[[str, str], None])
             thread.join(1.0)
 
 
-def _forward(
+def _forward_output(
     name: str, process: subprocess.Popen[str], write: Callable[[str, str], None], stopping: threading.Event
 ) -> None:
     assert process.stdout is not None

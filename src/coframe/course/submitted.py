@@ -34,17 +34,19 @@ def check_submitted(file: Path) -> Path:
     folder = file.parent.resolve()
     real = Path(os.path.realpath(file))  # does not raise for a loop of links, which cannot be opened
     if not real.is_relative_to(folder):
-        raise CourseError(f"{file.name} is a link to a file outside the folder.", hint="Replace it with that file.")
+        raise CourseError(
+            f"{file.name} is a link to a file outside the folder.", hint="Replace the link with that file."
+        )
     try:
         check_regular(real, MAX_BYTES)
         status = real.stat()
     except OSError as error:
         raise CourseError(f"{file.name} cannot be read: {error.strerror}.", hint="Replace it with a file.") from None
-    if status.st_nlink > 1 and status.st_nlink > _names_below(folder, status):
+    if status.st_nlink > 1 and status.st_nlink > _count_hard_links(folder, status):
         raise CourseError(
-            f"{file.name} is a hard link: the same file has another name outside the folder, so it may belong to "
-            "someone else.",
-            hint="Replace it with a copy.",
+            f"{file.name} is a hard link: another name of the same file is outside the folder, so the file may "
+            "belong to someone else.",
+            hint="Replace the link with a copy.",
         )
     return real
 
@@ -73,7 +75,7 @@ def read_submitted(file: Path) -> str:
     return read_regular(check_submitted(file), MAX_BYTES).decode("utf-8", errors="replace")
 
 
-def _names_below(folder: Path, status: os.stat_result) -> int:
+def _count_hard_links(folder: Path, status: os.stat_result) -> int:
     """Return the number of hard links of a file in and below a folder."""
     count = listed = 0
     for path, _, names in os.walk(folder):

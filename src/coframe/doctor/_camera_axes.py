@@ -31,7 +31,7 @@ _MIN_ROLLED_SINE = np.sin(np.radians(30.0))
 _MAX_UNROTATED_ANGLE = np.radians(10.0)  # how far calibrated cameras are off the axes of their robot
 _MAX_ALIGNMENT_ERROR = 0.1  # of an axis of one frame in another, at most this much off 0 or 1
 _MAX_ANGLE_ERROR = np.radians(3.0)
-_REAR = re.compile("rear|back|aft")
+_REAR_NAMES = re.compile("rear|back|aft")
 _DIRECTIONS = ("forward", "left", "up", "backward", "right", "down")
 _MAX_CANDIDATES = 2
 
@@ -60,19 +60,19 @@ def is_optical(edge: Edge) -> bool:
 def wrong_axes(observation: Observation, edge: Edge) -> WrongAxes | None:
     """Return what is wrong with the axes of an optical frame; None if a camera can be mounted in this way."""
     if _is_body_of(edge.parent, edge.child):
-        return _unlike_rep103(edge)
+        return _check_rep103_rotation(edge)
     chain = [edge] if is_base_frame(edge.parent) else [edge, *observation.mounts(edge.parent)]
     turn = _product(chain, None)
-    if not is_base_frame(chain[-1].parent) or _REAR.search(edge.child.lower()):
+    if not is_base_frame(chain[-1].parent) or _REAR_NAMES.search(edge.child.lower()):
         return None
     if _angle(turn, _IDENTITY) < _MAX_UNROTATED_ANGLE:
-        return _unrotated(edge)
+        return _unrotated_frame(edge)
     right, _, forward = _axes(turn)
     down = _axes(turn)[1]
     is_rolled = abs(right[2]) > _MIN_ROLLED_SINE or down[2] > _MAX_TILT_SINE
     if not is_rolled or forward[0] > _MIN_ROLLED_SINE:
         return None
-    return _corrected(chain, turn)
+    return _find_corrected_edge(chain, turn)
 
 
 _IDENTITY = np.array([0.0, 0.0, 0.0, 1.0])
@@ -85,13 +85,13 @@ def _is_body_of(parent: str, child: str) -> bool:
     return words[0] == words[1] and bool(words[0])
 
 
-def _unlike_rep103(edge: Edge) -> WrongAxes | None:
+def _check_rep103_rotation(edge: Edge) -> WrongAxes | None:
     """Return what is wrong with the optical frame of a camera's body, whose rotation REP-103 defines."""
     turn = edge.rotations[-1]
     if _angle(turn, OPTICAL) < 2.0 * _MAX_UNROTATED_ANGLE:
         return None
     if _angle(turn, _IDENTITY) < _MAX_UNROTATED_ANGLE:
-        return _unrotated(edge)
+        return _unrotated_frame(edge)
     zero = np.zeros(3)
     published, expected = (np.concatenate([zero, each])[None] for each in (turn, OPTICAL))
     found = explain(published, expected, radians=_MAX_ANGLE_ERROR)
@@ -99,12 +99,12 @@ def _unlike_rep103(edge: Edge) -> WrongAxes | None:
     is_aligned = bool((np.abs(np.abs(matrix) - np.round(np.abs(matrix))) < _MAX_ALIGNMENT_ERROR).all())
     if found is None and not is_aligned:
         return None
-    reading = f"; it is the rotation of REP-103 if {found.reading}" if found else ""
+    reading = f"; the rotation agrees with REP-103 if {found.reading}" if found else ""
     text = f"{_described(edge, turn)}{reading}"
     return WrongAxes(edge, text, found.fix if found else "", np.concatenate([edge.values[-1, :3], OPTICAL]))
 
 
-def _unrotated(edge: Edge) -> WrongAxes:
+def _unrotated_frame(edge: Edge) -> WrongAxes:
     text = (
         f"{edge.child!r} is named optical, but is not rotated relative to {edge.parent!r}: its z axis points up "
         "instead of forward"
@@ -113,7 +113,7 @@ def _unrotated(edge: Edge) -> WrongAxes:
     return WrongAxes(edge, text, "", np.concatenate([edge.values[-1, :3], turn]))
 
 
-def _corrected(chain: Sequence[Edge], turn: NDArray[np.float64]) -> WrongAxes | None:
+def _find_corrected_edge(chain: Sequence[Edge], turn: NDArray[np.float64]) -> WrongAxes | None:
     """Return the first edge and the corrections with which the camera is upright and looks forward."""
     for edge in chain:
         found: dict[str, Correction] = {}

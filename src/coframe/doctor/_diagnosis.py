@@ -130,7 +130,7 @@ def _run_guarded(check: PluginCheck, observation: Observation) -> Iterator[Findi
         yield Finding(
             code=check.code,
             severity=Severity.NOTE,
-            text=one_line(f"the check failed, and may have missed problems: {type(error).__name__}: {error}"),
+            text=one_line(f"the check failed and may have missed problems: {type(error).__name__}: {error}"),
             fix=f"Update the package {check.plugin.package}, or skip the check: coframe doctor --ignore {check.code}",
             harm=f"The check of the package {check.plugin.package} did not examine everything.",
         )

@@ -78,10 +78,10 @@ class Edge:
         """The edge without the rows that were more than a second late, such as those repeated after time went back."""
         # An edge that referred to itself would be freed only by the cyclic garbage collector, which does not take array
         # sizes into account: the memory of `doctor --watch` would grow with each report.
-        return self if self._without_late is None else self._without_late
+        return self if self._remove_late is None else self._remove_late
 
     @cached_property
-    def _without_late(self) -> Edge | None:
+    def _remove_late(self) -> Edge | None:
         kept = self.stamp >= np.maximum.accumulate(self.stamp) - _MAX_LATENESS
         if kept.all():
             return None
@@ -89,19 +89,21 @@ class Edge:
         return Edge(self.parent, self.child, self.static, *columns, self.publishers)
 
     @cached_property
-    def unset(self) -> int:
+    def unset_count(self) -> int:
         """The number of transforms whose stamp is 0, because it was never set."""
         return int(np.count_nonzero(self.stamp == 0))
 
     @property
     def is_unset(self) -> bool:
         """Whether the stamps count as never set: more than 5 % are 0. A simulation may begin with a few."""
-        return self.unset == self.count or (self.unset >= _MIN_UNSET_STAMPS and self.unset > 0.05 * self.count)
+        return self.unset_count == self.count or (
+            self.unset_count >= _MIN_UNSET_STAMPS and self.unset_count > 0.05 * self.count
+        )
 
     @cached_property
     def intervals(self) -> NDArray[np.int64]:
         """The intervals between consecutive different stamps, sorted by time, without stamps of 0."""
-        return stamp_intervals(self.stamp[self.stamp != 0] if self.unset else self.stamp)
+        return stamp_intervals(self.stamp[self.stamp != 0] if self.unset_count else self.stamp)
 
     @cached_property
     def period(self) -> float:
@@ -111,8 +113,8 @@ class Edge:
     @cached_property
     def rotations(self) -> NDArray[np.float64]:
         """(N, 4) unit quaternions."""
-        turns = self.values[:, 3:]
-        return np.asarray(turns / _lengths(turns)[:, None])
+        rotation_steps = self.values[:, 3:]
+        return np.asarray(rotation_steps / _lengths(rotation_steps)[:, None])
 
     def poses(self, rows: NDArray[np.intp]) -> NDArray[np.float64]:
         """Return the poses of given rows, (N, 7), with unit quaternions."""
@@ -129,7 +131,7 @@ class Edge:
         return _lengths(np.diff(self.values[:, :3], axis=0))
 
     @cached_property
-    def turns(self) -> NDArray[np.float64]:
+    def rotation_steps(self) -> NDArray[np.float64]:
         """(N - 1,) radians from each rotation to the next one."""
         return angles_between(self.rotations[:-1], self.rotations[1:])
 

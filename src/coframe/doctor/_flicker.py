@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from coframe.doctor._edge import angles_between
-from coframe.doctor.pose_mistakes import Explanation, explain, explain_either
+from coframe.doctor.pose_mistakes import Explanation, explain, explain_mutual_difference
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -18,14 +18,14 @@ if TYPE_CHECKING:
 __all__ = ["Flicker", "alternation_cause", "flicker", "jump_cause"]
 
 _MIN_JUMPS = 6  # jumps away and back
-_METERS = 1e-3
+_DISTANCE_RESOLUTION = 1e-3
 _RADIANS = 1e-2
 # A jump must be larger than this multiple of the usual step.
 _MIN_STEP_RATIO = 6.0
 _TOLERANCE = 2.0  # usual steps that two poses at nearly the same time may differ
 _MAX_COMPARED = 200  # jumps
-_SAMPLE = 1_000  # rows, which are enough for a quantile
-_TURNS = 3
+_SAMPLE_ROWS = 1_000  # rows, which are enough for a quantile
+_MAX_REVERSALS = 3
 _MIN_ALTERNATION_SHARE = 0.4
 _GOLDEN_RATIO = 0.6180339887498949
 # The maximum distance between two rows of the slower publisher.
@@ -51,12 +51,12 @@ def flicker(edge: Edge) -> Flicker | None:
     if edge.count < _MIN_JUMPS + 2:
         return None
     # The usual step is computed only if there are enough large steps, because it takes most of the time.
-    if np.count_nonzero((edge.distances > _METERS) | (edge.turns > _RADIANS)) < _MIN_JUMPS:
+    if np.count_nonzero((edge.distances > _DISTANCE_RESOLUTION) | (edge.rotation_steps > _RADIANS)) < _MIN_JUMPS:
         return None
     typical_distance, typical_angle = _typical_step(edge)
     jumps = np.flatnonzero(
-        (edge.distances > _MIN_STEP_RATIO * typical_distance + _METERS)
-        | (edge.turns > _MIN_STEP_RATIO * typical_angle + _RADIANS)
+        (edge.distances > _MIN_STEP_RATIO * typical_distance + _DISTANCE_RESOLUTION)
+        | (edge.rotation_steps > _MIN_STEP_RATIO * typical_angle + _RADIANS)
     )
     if len(jumps) < _MIN_JUMPS:
         return None
@@ -65,19 +65,19 @@ def flicker(edge: Edge) -> Flicker | None:
     # The difference between the row before a jump and the row after the next one.
     left = np.linalg.norm(edge.values[away, :3] - edge.values[back + 1, :3], axis=1)
     turned = angles_between(edge.rotations[away], edge.rotations[back + 1])
-    distance, angle = edge.distances[away], edge.turns[away]
-    returned = (distance > 2.0 * left + _METERS) | (angle > 2.0 * turned + _RADIANS)
+    distance, angle = edge.distances[away], edge.rotation_steps[away]
+    returned = (distance > 2.0 * left + _DISTANCE_RESOLUTION) | (angle > 2.0 * turned + _RADIANS)
     # Most jumps must be reversed by the next one: a robot that is moved to a new pose a few times does not flicker.
     if np.count_nonzero(returned) < max(_MIN_JUMPS, len(jumps) // 2):
         return None
     rows = away[returned]
-    return Flicker(len(rows), float(np.median(edge.distances[rows])), float(np.median(edge.turns[rows])), rows)
+    return Flicker(len(rows), float(np.median(edge.distances[rows])), float(np.median(edge.rotation_steps[rows])), rows)
 
 
 def alternation_cause(edge: Edge, found: Flicker) -> str:
     """Return a clause with the mistake that explains how the two poses differ; "" if no usual mistake does."""
     rows = found.rows[: 2 * _MAX_COMPARED : 2]  # every second jump returns
-    explained = explain_either(edge.poses(rows), edge.poses(rows + 1), **_tolerances(edge))
+    explained = explain_mutual_difference(edge.poses(rows), edge.poses(rows + 1), **_tolerances(edge))
     return f"; {explained[0].text('the other', 'one of them')}" if explained else ""
 
 
@@ -97,7 +97,7 @@ def jump_cause(edge: Edge, rows: NDArray[np.intp]) -> Explanation | None:
 def _tolerances(edge: Edge) -> dict[str, float]:
     """Return how far an edge usually moves between two rows, as the limits of a comparison."""
     distance, angle = _typical_step(edge)
-    return {"meters": _TOLERANCE * distance + _METERS, "radians": _TOLERANCE * angle + _RADIANS / 10}
+    return {"meters": _TOLERANCE * distance + _DISTANCE_RESOLUTION, "radians": _TOLERANCE * angle + _RADIANS / 10}
 
 
 def _typical_step(edge: Edge) -> tuple[float, float]:
@@ -106,11 +106,14 @@ def _typical_step(edge: Edge) -> tuple[float, float]:
     With two publishers that alternate, every second row is from the same one, and every third row if one of them has
     twice the rate of the other. With a larger ratio, half of the rows follow a row of the same publisher.
     """
-    rows = _sample(edge.count - _TURNS)
+    rows = _sample(edge.count - _MAX_REVERSALS)
     moved = [
-        np.linalg.norm(edge.values[rows + turn, :3] - edge.values[rows, :3], axis=1) for turn in range(1, _TURNS + 1)
+        np.linalg.norm(edge.values[rows + turn, :3] - edge.values[rows, :3], axis=1)
+        for turn in range(1, _MAX_REVERSALS + 1)
     ]
-    turned = [angles_between(edge.rotations[rows], edge.rotations[rows + turn]) for turn in range(1, _TURNS + 1)]
+    turned = [
+        angles_between(edge.rotations[rows], edge.rotations[rows + turn]) for turn in range(1, _MAX_REVERSALS + 1)
+    ]
     return float(np.quantile(moved, _MIN_ALTERNATION_SHARE, axis=1).min()), float(
         np.quantile(turned, _MIN_ALTERNATION_SHARE, axis=1).min()
     )
@@ -118,6 +121,6 @@ def _typical_step(edge: Edge) -> tuple[float, float]:
 
 def _sample(count: int) -> NDArray[np.intp]:
     """Return a sample of rows at irregular distances, because a regular one could contain only one publisher."""
-    if count <= _SAMPLE:
+    if count <= _SAMPLE_ROWS:
         return np.arange(count)
-    return np.asarray(np.arange(_SAMPLE) * _GOLDEN_RATIO % 1.0 * count).astype(np.intp)
+    return np.asarray(np.arange(_SAMPLE_ROWS) * _GOLDEN_RATIO % 1.0 * count).astype(np.intp)

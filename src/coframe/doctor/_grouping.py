@@ -18,7 +18,7 @@ __all__ = ["merge_similar"]
 
 _MIN_SUBJECTS = 3  # edges or topics
 # A number with its unit, in which the texts about the edges may differ.
-_FIGURE = re.compile(r"[-+]?\d[\d.,_]*(?:e[-+]?\d+)?\s?(?:ns|us|ms|min|s|h|Hz|mm|m|%|deg(?:rees)?)?\b")
+_NUMBER_WITH_UNIT = re.compile(r"[-+]?\d[\d.,_]*(?:e[-+]?\d+)?\s?(?:ns|us|ms|min|s|h|Hz|mm|m|%|deg(?:rees)?)?\b")
 
 
 def merge_similar(findings: list[Finding]) -> list[Finding]:
@@ -26,10 +26,10 @@ def merge_similar(findings: list[Finding]) -> list[Finding]:
     groups: dict[Hashable, list[Finding]] = {}
     for position, finding in enumerate(findings):
         groups.setdefault(_kind(finding) if finding.subject else position, []).append(finding)
-    return [one for group in groups.values() for one in ([_merge_group(group)] if _is_many(group) else group)]
+    return [one for group in groups.values() for one in ([_merge_group(group)] if _has_many_subjects(group) else group)]
 
 
-def _is_many(group: list[Finding]) -> bool:
+def _has_many_subjects(group: list[Finding]) -> bool:
     return len({finding.subject for finding in group}) >= _MIN_SUBJECTS
 
 
@@ -46,7 +46,7 @@ def _pattern(finding: Finding) -> str:
     text = finding.text
     for name in sorted({*finding.frames, finding.topic} - {""}, key=lambda name: (-len(name), name)):
         text = re.sub(rf"(?<![\w/]){re.escape(name)}(?![\w/])", "\0", text)
-    return _FIGURE.sub("\1", text)
+    return _NUMBER_WITH_UNIT.sub("\1", text)
 
 
 def _merge_group(group: list[Finding]) -> Finding:

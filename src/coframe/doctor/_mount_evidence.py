@@ -35,7 +35,7 @@ _MIN_WRONG_TILT, _MAX_RIGHT_TILT = np.radians(20.0), np.radians(3.0)  # of gravi
 _MAX_CANDIDATES = 4  # With more, gravity does not show which one it is.
 _MIN_SCANS = 4
 _MIN_POINTS = 500
-_WINDOW = 10 * SECOND
+_WINDOW_DURATION = 10 * SECOND
 _CELL_SIZES = (0.03, 0.01)  # of the usual range: sparse scans overlap in large cells, and small ones show small errors
 _MIN_CELL = 0.1  # meters
 _MIN_REMAINING_SHARE = (
@@ -71,20 +71,20 @@ def gravity_contradictions(observation: Observation) -> Iterator[Contradiction]:
             continue
         seen.add(imu.frame)
 
-        def tilt(turns: Sequence[Array], up: Array = up) -> float:
+        def tilt_angle(turns: Sequence[Array], up: Array = up) -> float:
             for turn in turns:
                 up = quaternion.rotate(turn, up)
             return float(np.arccos(np.clip(up[2], -1.0, 1.0)))
 
         turns = [edge.rotations[-1] for edge in chain]
-        off = tilt(turns)
+        off = tilt_angle(turns)
         if off < _MIN_WRONG_TILT:
             continue
         for number, edge in enumerate(chain):
             if edge.angle < _MIN_ROTATION:
                 continue  # The sign of the acceleration is more likely to be wrong than a mount of zeros.
             tried = [
-                (tilt([*turns[:number], correction.pose[3:], *turns[number + 1 :]]), correction)
+                (tilt_angle([*turns[:number], correction.pose[3:], *turns[number + 1 :]]), correction)
                 for correction in _distinct_corrections(edge)
             ]
             right = [(angle, correction) for angle, correction in tried if angle < _MAX_RIGHT_TILT]
@@ -107,11 +107,11 @@ def points_contradictions(observation: Observation) -> Iterator[Contradiction]:
         moving = [edge for edge in observation.path(sensor.frame) if edge not in chain]
         if not chain or len(scans) < _MIN_SCANS or not any(not edge.constant for edge in moving):
             continue
-        found = (_by_overlap(sensor.topic, chain, moving, scans, share) for share in _CELL_SIZES)
+        found = (_find_by_overlap(sensor.topic, chain, moving, scans, share) for share in _CELL_SIZES)
         yield from islice((one for one in found if one is not None), 1)
 
 
-def _by_overlap(
+def _find_by_overlap(
     topic: str, chain: list[Edge], moving: list[Edge], scans: Sequence[ObservedPoints], cell: float
 ) -> Contradiction | None:
     """Return the mount whose correction makes scans overlap in cells of a size, given as a share of the usual range."""
@@ -161,12 +161,12 @@ def _distinct_corrections(edge: Edge) -> list[Correction]:
     for correction in corrections(edge.last_pose[0]):
         if "camera" in correction.reading and "cam" not in edge.child.lower():
             continue
-        sign = np.where(np.arange(7) < 3, 1.0, np.sign(correction.pose[3:] @ _HEMISPHERE))
+        sign = np.where(np.arange(7) < 3, 1.0, np.sign(correction.pose[3:] @ _HEMISPHERE_AXIS))
         found.setdefault(tuple(np.round(correction.pose * sign, 4).tolist()), correction)
     return list(found.values())
 
 
-_HEMISPHERE = np.array([0.1234, 0.3456, 0.5678, 1.0])  # A quaternion and its negative are the same rotation.
+_HEMISPHERE_AXIS = np.array([0.1234, 0.3456, 0.5678, 1.0])  # A quaternion and its negative are the same rotation.
 
 
 def _acceleration_at_rest(imu: ObservedImu) -> Array | None:
@@ -186,7 +186,7 @@ def _acceleration_at_rest(imu: ObservedImu) -> Array | None:
 
 def _window(scans: Sequence[ObservedPoints]) -> Sequence[ObservedPoints]:
     """Return the scans of a short time, in which the position of the robot hardly drifts."""
-    return [scan for scan in scans if scan.stamp <= scans[0].stamp + _WINDOW]
+    return [scan for scan in scans if scan.stamp <= scans[0].stamp + _WINDOW_DURATION]
 
 
 def _base_poses(moving: list[Edge], times: NDArray[np.int64]) -> tuple[Array, Array, NDArray[np.bool_]] | None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from coframe.doctor.pose_mistakes import explain_either
+from coframe.doctor.pose_mistakes import explain_mutual_difference
 from coframe.time import MILLISECOND
 
 if TYPE_CHECKING:
@@ -33,13 +33,13 @@ def odometry_contradictions(observation: Observation) -> Iterator[tuple[Edge, st
         edge = next((one for one in observation.dynamic if one.key == (poses.frame, poses.child)), None)
         if edge is None:
             continue
-        rows, others = _matched(edge, poses)
+        rows, others = _match_rows(edge, poses)
         if len(rows) < _MIN_COMPARED:
             continue
         published, expected = edge.poses(rows), poses.values[others]
         if max(np.ptp(expected[:, :3], axis=0).max(), np.ptp(expected[:, 3:], axis=0).max()) < _MIN_MOTION:
             continue
-        explained = explain_either(published, expected, meters=_MAX_DISTANCE, radians=_MAX_ANGLE)
+        explained = explain_mutual_difference(published, expected, meters=_MAX_DISTANCE, radians=_MAX_ANGLE)
         if explained is None or np.isnan(explained[0].meters + explained[0].radians):
             continue
         mistake, in_transform = explained
@@ -47,7 +47,7 @@ def odometry_contradictions(observation: Observation) -> Iterator[tuple[Edge, st
         yield edge, f"differs from {poses.topic}: {mistake.text(right, wrong)} ({len(rows)} compared)", mistake.fix
 
 
-def _matched(edge: Edge, poses: ObservedPoses) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def _match_rows(edge: Edge, poses: ObservedPoses) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return the rows of an edge and of poses with nearly the same stamp."""
     order = np.argsort(edge.stamp, kind="stable")
     stamps = edge.stamp[order]

@@ -50,7 +50,7 @@ def plugin_checks() -> dict[str, PluginCheck]:
         code, find, page = values
         problem = _problem(code, find, page)
         if not problem and code in found:
-            problem = f"has the code {code}, which {found[code].plugin.package} also has"
+            problem = f"has the code {code}, which {found[code].plugin.package} already uses"
         if problem:
             report(str(plugin.error(problem)))
         else:

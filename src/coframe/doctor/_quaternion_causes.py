@@ -15,10 +15,10 @@ if TYPE_CHECKING:
 
 __all__ = ["Cause", "likely_cause"]
 
-_CLOSE = 1.5e-3  # for components that were typed with three digits
+_TOLERANCE = 1.5e-3  # for components that were typed with three digits
 _NAMES = ("roll", "pitch", "yaw")
-_SET = "t.transform.rotation."
-_ROUND = 5  # degrees; typed angles are multiples of this
+_ROTATION_FIELD = "t.transform.rotation."
+_ANGLE_STEP = 5  # degrees; typed angles are multiples of this
 _DEFAULT_W = 1.0
 
 
@@ -45,14 +45,14 @@ def likely_cause(quaternions: NDArray[np.float64]) -> Cause | None:
         Use half the angle in both: z = math.sin(yaw / 2), w = math.cos(yaw / 2). For yaw = 28.6 degrees these are \
 t.transform.rotation.z = 0.247404 and t.transform.rotation.w = 0.968912.
     """
-    return _angles_as_components(quaternions) or _missing_half(quaternions) or _default_w(quaternions)
+    return _angles_as_components(quaternions) or _find_missing_half(quaternions) or _find_default_w(quaternions)
 
 
-def _missing_half(quaternions: NDArray[np.float64]) -> Cause | None:
+def _find_missing_half(quaternions: NDArray[np.float64]) -> Cause | None:
     w = quaternions[:, 3]
     v = np.linalg.norm(quaternions[:, :3], axis=1)
     sine = np.sqrt(np.maximum(1.0 - w * w, 0.0))
-    if (v < _CLOSE).all() or (len(w) == 1 and abs(v[0] - abs(w[0])) < _CLOSE):
+    if (v < _TOLERANCE).all() or (len(w) == 1 and abs(v[0] - abs(w[0])) < _TOLERANCE):
         return None  # an unnormalized rotation of 90 degrees also matches
     axis, component = _axis(quaternions)
     # The mistake, its residuals, and the angle of the first quaternion if it is right.
@@ -67,35 +67,36 @@ def _missing_half(quaternions: NDArray[np.float64]) -> Cause | None:
         ),
     )
     text, residuals, angle = min(candidates, key=lambda candidate: float(np.abs(candidate[1]).max()))
-    if not np.abs(residuals).max() < _CLOSE:
+    if not np.abs(residuals).max() < _TOLERANCE:
         return None
-    return Cause(f"the half angle is missing: {text}", _fix(quaternions[0], float(angle)))
+    return Cause(f"the half angle is missing: {text}", _fix_text(quaternions[0], float(angle)))
 
 
-def _default_w(quaternions: NDArray[np.float64]) -> Cause | None:
+def _find_default_w(quaternions: NDArray[np.float64]) -> Cause | None:
     v = np.linalg.norm(quaternions[:, :3], axis=1)
     if not ((quaternions[:, 3] == _DEFAULT_W).all() and v.max() <= 1.0):
         return None
     _, component = _axis(quaternions)
     return Cause(
-        f"w is 1, as if only {component} had been set", _fix(quaternions[0], 2.0 * float(np.arcsin(min(v[0], 1.0))))
+        f"w is 1, as if only {component} had been set",
+        _fix_text(quaternions[0], 2.0 * float(np.arcsin(min(v[0], 1.0)))),
     )
 
 
 def _angles_as_components(quaternions: NDArray[np.float64]) -> Cause | None:
     """Return the cause for angles that were set as x, y and z: in degrees, or one common angle in radians."""
     angles = quaternions[:, :3]
-    if np.abs(angles).max(axis=1).min() <= 1.0 + _CLOSE:
+    if np.abs(angles).max(axis=1).min() <= 1.0 + _TOLERANCE:
         return None
-    in_degrees = (angles % _ROUND == 0).all() and np.abs(angles).max() <= 360.0
+    in_degrees = (angles % _ANGLE_STEP == 0).all() and np.abs(angles).max() <= 360.0
     steps = angles / np.radians(15.0)
-    in_radians = np.abs(steps - np.round(steps)).max() < _CLOSE and np.abs(angles).max() <= 2.0 * np.pi + _CLOSE
+    in_radians = np.abs(steps - np.round(steps)).max() < _TOLERANCE and np.abs(angles).max() <= 2.0 * np.pi + _TOLERANCE
     if not in_degrees and not in_radians:
         return None
     rpy = np.radians(angles[0]) if in_degrees else angles[0]
     right = quaternion.from_rpy(rpy)
     values = ", ".join(f"{name} = {value + 0.0:.6g}" for name, value in zip("xyzw", right.tolist(), strict=True))
-    named = _listed_angles(rpy)
+    named = _angles_text(rpy)
     return Cause(
         f"x, y and z look like the angles {named} in {'degrees' if in_degrees else 'radians'}, not like components of "
         "a quaternion",
@@ -105,7 +106,7 @@ def _angles_as_components(quaternions: NDArray[np.float64]) -> Cause | None:
     )
 
 
-def _listed_angles(rpy: NDArray[np.float64]) -> str:
+def _angles_text(rpy: NDArray[np.float64]) -> str:
     """Return the angles that are not 0, in degrees."""
     pairs = zip(_NAMES, rpy.tolist(), strict=True)
     return ", ".join(f"{name} = {degrees(angle):.3g} degrees" for name, angle in pairs if angle)
@@ -121,7 +122,7 @@ def _angle_of(w: float) -> float:
     return 2.0 * float(np.arccos(np.clip(w, -1.0, 1.0)))
 
 
-def _fix(first: NDArray[np.float64], angle: float) -> str:
+def _fix_text(first: NDArray[np.float64], angle: float) -> str:
     axis, component = _axis(first[None])
     if component not in "xyz":
         direction = first[:3] / np.linalg.norm(first[:3])
@@ -134,6 +135,7 @@ def _fix(first: NDArray[np.float64], angle: float) -> str:
     signed = angle if float(first["xyz".index(component)]) >= 0.0 else -angle
     return (
         f"Use half the angle in both: {component} = math.sin({axis} / 2), w = math.cos({axis} / 2). For {axis} = "
-        f"{degrees(signed):.3g} degrees these are {_SET}{component} = {np.sin(signed / 2.0):.6g} and {_SET}w = "
+        f"{degrees(signed):.3g} degrees these are {_ROTATION_FIELD}{component} = {np.sin(signed / 2.0):.6g} and "
+        f"{_ROTATION_FIELD}w = "
         f"{np.cos(signed / 2.0):.6g}."
     )

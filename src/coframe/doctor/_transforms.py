@@ -91,7 +91,7 @@ class Transforms:
         return np.asarray(self.finite & unit & (named[self.edge] if len(self) else np.zeros(0, dtype=bool)))
 
     @cached_property
-    def _numbered(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    def _number_pairs(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         keys = self.child * len(self.names) + self.parent
         if not len(keys) or keys.max() > _MAX_COUNTED_KEY:
             pairs, edge = np.unique(keys, return_inverse=True)
@@ -104,12 +104,12 @@ class Transforms:
     @property
     def pairs(self) -> NDArray[np.int64]:
         """The pairs of names that occur, as numbers; see :meth:`pair`."""
-        return self._numbered[0]
+        return self._number_pairs[0]
 
     @property
     def edge(self) -> NDArray[np.int64]:
         """(N,) position of the pair of each row in :attr:`pairs`."""
-        return self._numbered[1]
+        return self._number_pairs[1]
 
     def pair(self, number: int) -> tuple[str, str]:
         """Return the names of parent and child of a pair."""

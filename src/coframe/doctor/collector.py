@@ -47,7 +47,7 @@ class Collector:
         self._names: dict[str, int] = {}
         self._name_bytes = 0
         self._static = TransformRows()
-        self._moving = TransformRows()
+        self._dynamic_rows = TransformRows()
 
     def add(
         self,
@@ -88,23 +88,25 @@ class Collector:
             values=columns.values,
             publishers=tuple(publishers),
         )
-        (self._static if static else self._moving).append(batch)
+        (self._static if static else self._dynamic_rows).append(batch)
 
     def forget(self, before: int, most: int) -> None:
         """Remove dynamic transforms that arrived before a time, and the oldest ones beyond a maximum number of rows."""
-        self._moving.forget(before, most)
+        self._dynamic_rows.forget(before, most)
         self._static.forget(0, most)
 
     @property
     def forgotten_until(self) -> int:
         """The arrival time of the last transform removed because of the limit; 0 if none was."""
-        return max(self._static.forgotten_until, self._moving.forgotten_until)
+        return max(self._static.forgotten_until, self._dynamic_rows.forgotten_until)
 
     def transforms(self) -> Transforms:
         """Return all rows in the order of arrival."""
         sent = tuple(self._names)
-        return Transforms.joined([self._static.table(), self._moving.table()], tuple(map(self._renamed, sent)), sent)
+        return Transforms.joined(
+            [self._static.table(), self._dynamic_rows.table()], tuple(map(self._renamed, sent)), sent
+        )
 
     def publishers(self) -> set[str]:
         """Return the names of the publishers of the remaining rows."""
-        return self._static.publishers() | self._moving.publishers()
+        return self._static.publishers() | self._dynamic_rows.publishers()

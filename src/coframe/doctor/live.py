@@ -26,7 +26,7 @@ from coframe.doctor.observation import (
 )
 from coframe.errors import DecodeError
 from coframe.messages import deserialize, find
-from coframe.messages.header_peek import HEADER_BYTES, opens_with_header, peek_header
+from coframe.messages.header_peek import HEADER_BYTES, begins_with_header, peek_header
 from coframe.messages.slices import Slices
 from coframe.messages.tf_columns import tf_columns
 from coframe.time import SECOND
@@ -161,7 +161,7 @@ class LiveObserver:
         self.window = window
         self._also = frozenset(also)
         self.start = time.time_ns()
-        self._started = time.monotonic_ns()
+        self._started_at = time.monotonic_ns()
         self._participant = Participant.get(config.domain, config.wire)
         self._collector = Collector(config.renaming)
         self._writers: dict[int, _Writer] = {}
@@ -170,7 +170,7 @@ class LiveObserver:
         self._topics: dict[str, _Topic] = {}
         self._topics_ignored = 0
         self._dropped_at: dict[str, int] = {}  # by transform topic: the time of the last dropped message
-        self._return_due = 0.0
+        self._next_memory_return = 0.0
         try:
             self._node = self._participant.add_node(node_namespace, node_name)
             self._transforms = {
@@ -212,10 +212,10 @@ class LiveObserver:
             else:
                 self._subscribe_if_relevant(name, sorted({endpoint.ros_type for endpoint in handles.values()}))
         for other in self._topics.values():
-            self._take(other)
+            self._take_messages(other)
         self._forget(before, {handle for handles in published.values() for handle in handles})
         if self.window is not None:
-            self._leave(
+            self._unsubscribe(
                 [name for name, topic in self._topics.items() if name not in published and topic.is_over(before)]
             )
             self._return_memory()
@@ -229,20 +229,20 @@ class LiveObserver:
 
     def listen_for_statics(self) -> None:
         """Poll until every publisher of static transforms has delivered them, or until STATICS_TIMEOUT has passed."""
-        end = self._started / SECOND + STATICS_TIMEOUT
+        end = self._started_at / SECOND + STATICS_TIMEOUT
         while self._awaited_statics() and (left := end - time.monotonic()) > 0:
             self.listen(min(0.1, left))
 
     def observe(self) -> Observation:
         """Return the data received within the window."""
-        self._return_due = 0.0  # The caller discards a large report; the next poll returns its memory.
+        self._next_memory_return = 0.0  # The caller discards a large report; the next poll returns its memory.
         end = time.time_ns()
         start = self.start if self.window is None else max(self.start, end - self.window)
         return Observation(
             live=True,
             start=start,
             end=end,
-            transforms=self._with_node_names(self._collector.transforms()),
+            transforms=self._add_node_names(self._collector.transforms()),
             empty_messages=self._collector.empty,
             damaged_messages=self._collector.damaged,
             messages_ignored=self._collector.ignored,
@@ -308,11 +308,11 @@ class LiveObserver:
 
     def _return_memory(self) -> None:
         """Periodically return the memory of discarded messages and reports to the system."""
-        if time.monotonic() >= self._return_due:
-            self._return_due = time.monotonic() + _RETURN_PERIOD
+        if time.monotonic() >= self._next_memory_return:
+            self._next_memory_return = time.monotonic() + _RETURN_PERIOD
             return_freed_blocks()
 
-    def _with_node_names(self, received: Transforms) -> Transforms:
+    def _add_node_names(self, received: Transforms) -> Transforms:
         """Replace the writer handles of the collector with the names of nodes."""
         names = [self._node_of(int(handle)) for handle in received.publishers]
         number = {name: i for i, name in enumerate(dict.fromkeys(names))}
@@ -354,7 +354,7 @@ class LiveObserver:
                 while sum(len(batch.values) for batch in delays) > MAX_MESSAGES and len(delays) > 1:
                     delays.popleft()
 
-    def _leave(self, topics: Iterable[str]) -> None:
+    def _unsubscribe(self, topics: Iterable[str]) -> None:
         """Close the subscriptions to topics that are no longer published."""
         for name in topics:
             self._topics.pop(name).subscription.close()
@@ -365,13 +365,13 @@ class LiveObserver:
             subscription = self._subscribe(name, ros_type, _LATCHED, _WHOLE_MESSAGE)
         elif ros_type in _DECODED_TYPES:
             subscription = self._subscribe(name, ros_type, _ANY_PUBLISHER, _WHOLE_MESSAGE)
-        elif name in self._also or (ros_type not in _LARGE_TYPES and opens_with_header(ros_type)):
+        elif name in self._also or (ros_type not in _LARGE_TYPES and begins_with_header(ros_type)):
             subscription = self._subscribe(name, ros_type, _ANY_PUBLISHER, HEADER_BYTES)
         else:
             return
         self._topics[name] = _Topic(name, ros_type, subscription)
 
-    def _take(self, topic: _Topic) -> None:
+    def _take_messages(self, topic: _Topic) -> None:
         messages = topic.subscription.take()
         topic.messages += len(messages.ends)
         if messages.dropped:
@@ -382,7 +382,7 @@ class LiveObserver:
             for size, arrived, message in _decode(topic.type, rows):
                 topic.add_decoded(size, arrived, message)
             return
-        for data, arrived, writer in rows if opens_with_header(topic.type) else ():
+        for data, arrived, writer in rows if begins_with_header(topic.type) else ():
             header = peek_header(data)
             if header is not None:
                 stamp, frame = header
@@ -415,7 +415,7 @@ class LiveObserver:
                 self._collector.messages.get(topic, 0),
                 self._endpoints(self._participant.publishers(topic)),
                 self._endpoints(self._participant.subscribers(topic)),
-                now - self._started,
+                now - self._started_at,
             )
             for topic in self._transforms
         }

@@ -33,12 +33,12 @@ __all__ = [
     "OPTICAL",
     "Correction",
     "Explanation",
-    "angle_triples",
+    "all_rpy_angles",
     "corrections",
-    "described_rotation",
     "explain",
-    "explain_either",
-    "inverted",
+    "explain_mutual_difference",
+    "inverse_poses",
+    "rotation_text",
 ]
 
 OPTICAL = quaternion.from_rpy(np.array([-pi / 2, 0.0, -pi / 2]))
@@ -67,15 +67,15 @@ class Mistake(NamedTuple):
     Attributes:
         reading: The clause after "if": what makes the published value right.
         fix: What to do.
-        commit: Returns what is published instead of the right values, in each variant of the mistake.
-        undo: Returns the values that may have been meant by the published ones.
+        apply_mistake: Returns what is published instead of the right values, in each variant of the mistake.
+        undo_mistake: Returns the values that may have been meant by the published ones.
         precision: By how much the mistake makes a difference smaller.
     """
 
     reading: str
     fix: str
-    commit: Trial
-    undo: Trial
+    apply_mistake: Trial
+    undo_mistake: Trial
     precision: float = 1.0
 
 
@@ -158,7 +158,7 @@ def explain(
     )
 
 
-def explain_either(
+def explain_mutual_difference(
     first: Array, second: Array, *, meters: float = _MAX_DISTANCE, radians: float = _MAX_ANGLE
 ) -> tuple[Explanation, bool] | None:
     """Return the least ambiguous mistake that explains how two poses differ, either of which may be the wrong one.
@@ -178,14 +178,14 @@ def corrections(pose: Array) -> Iterator[Correction]:
     The caller compares them with other data: gravity, the points of a lidar, or the axes of a camera.
     """
     place, turn = pose[:3], pose[None, 3:]
-    inverse = inverted(pose[None])[0]
+    inverse = inverse_poses(pose[None])[0]
     for mistake in _ROTATIONS:
-        for turned in mistake.undo(turn):
+        for turned in mistake.undo_mistake(turn):
             yield Correction(mistake.reading, mistake.fix, np.concatenate([place, turned[0]]))
     yield Correction(_INVERTED, _INVERTED_FIX, inverse)
 
 
-def described_rotation(turn: Array) -> str:
+def rotation_text(turn: Array) -> str:
     """Return a rotation (4,) as roll, pitch and yaw in degrees.
 
     Example:
@@ -200,30 +200,30 @@ def described_rotation(turn: Array) -> str:
 
 _INVERTED = "it is inverted"
 _INVERTED_FIX = (
-    "The inverse was published, as if parent and child were exchanged: publish transform.inverse(). In a transform the "
+    "The inverse was published, as if parent and child were swapped: publish transform.inverse(). In a transform the "
     "translation is the position of the child frame in the parent frame."
 )
-_BODY = "its rotation is that of the camera's body, not that of its optical frame"
+_BODY_READING = "its rotation is that of the camera's body, not that of its optical frame"
 _BODY_FIX = "Add the rotation of optical frames (REP-103): roll -90, pitch 0, yaw -90 degrees."
 
 
 def _explain_inverse(
     published: Array, expected: Array, limits: tuple[float, float], difference: tuple[float, float]
 ) -> Explanation | None:
-    inverse = inverted(published)
+    inverse = inverse_poses(published)
     left = _distance(inverse[:, :3], expected[:, :3]), _rotation(inverse[:, 3:], expected[:, 3:])
     fits = all(rest <= limit for rest, limit in zip(left, limits, strict=True))
     explains = any(_MIN_RATIO * rest < before for rest, before in zip(left, difference, strict=True))
     return Explanation(_INVERTED, _INVERTED_FIX, *left) if fits and explains else None
 
 
-def inverted(poses: Array) -> Array:
+def inverse_poses(poses: Array) -> Array:
     """Return the inverse of poses (N, 7)."""
     turn = quaternion.inverse(poses[:, 3:])
     return np.concatenate([-quaternion.rotate(turn, poses[:, :3]), turn], axis=1)
 
 
-class _Fit(NamedTuple):
+class _MistakeFit(NamedTuple):
     """A mistake that fits, its position in the list, and the difference that remains."""
 
     mistake: Mistake
@@ -237,15 +237,15 @@ def _first(
     expected: Array,
     limit: float,
     measure: Callable[[Array, Array], float],
-) -> _Fit | None:
+) -> _MistakeFit | None:
     """Return the first mistake that explains the difference, with what remains."""
     before = measure(published, expected)
     for rank, mistake in enumerate(mistakes):
-        undone = [measure(candidate, expected) for candidate in mistake.undo(published)]
-        committed = [measure(candidate, published) / mistake.precision for candidate in mistake.commit(expected)]
+        undone = [measure(candidate, expected) for candidate in mistake.undo_mistake(published)]
+        committed = [measure(candidate, published) / mistake.precision for candidate in mistake.apply_mistake(expected)]
         left = min((*undone, *committed), default=np.inf)
         if left <= limit and _MIN_RATIO * left < before:
-            return _Fit(mistake, rank, left)
+            return _MistakeFit(mistake, rank, left)
     return None
 
 
@@ -260,7 +260,7 @@ def _rotation(first: Array, second: Array) -> float:
 # Rotations
 
 
-def angle_triples(turn: Array) -> list[Array]:
+def all_rpy_angles(turn: Array) -> list[Array]:
     """Return all roll, pitch, yaw (N, 3) that give a rotation, with angles between -pi and pi."""
     rpy = quaternion.to_rpy(turn)
     roll, pitch, yaw = rpy.T
@@ -273,39 +273,39 @@ def angle_triples(turn: Array) -> list[Array]:
     return [(triple + pi) % (2.0 * pi) - pi for triple in triples]
 
 
-def _permuted(order: tuple[int, int, int], turn: Array) -> list[Array]:
-    return [quaternion.from_rpy(triple[:, order]) for triple in angle_triples(turn)]
+def _permute_angles(order: tuple[int, int, int], turn: Array) -> list[Array]:
+    return [quaternion.from_rpy(triple[:, order]) for triple in all_rpy_angles(turn)]
 
 
-def _permutation(order: tuple[int, int, int]) -> Mistake:
+def _angle_order_mistake(order: tuple[int, int, int]) -> Mistake:
     back = (order.index(0), order.index(1), order.index(2))
     names = ", ".join(_ANGLES[index] for index in order)
     return Mistake(
         f"its angles are read in the order {names} instead of roll, pitch, yaw",
         "Check the order of the angles: roll about x, pitch about y, yaw about z.",
-        partial(_permuted, order),
-        partial(_permuted, back),
+        partial(_permute_angles, order),
+        partial(_permute_angles, back),
     )
 
 
 def _other_convention(turn: Array) -> list[Array]:
     """Return rotations about moving instead of fixed axes, in the order x, y, z."""
     found = []
-    for triple in angle_triples(turn):
+    for triple in all_rpy_angles(turn):
         parts = [quaternion.from_rpy(triple * np.eye(3)[axis]) for axis in range(3)]
         found.append(quaternion.multiply(quaternion.multiply(parts[0], parts[1]), parts[2]))
     return found
 
 
-def _from_other_convention(turn: Array) -> list[Array]:
+def _from_fixed_axes(turn: Array) -> list[Array]:
     """Return the rotations about fixed axes with the angles that rotations about moving axes have."""
     # R = Rx(a) Ry(b) Rz(c) is the inverse of Rz(-c) Ry(-b) Rx(-a), whose roll, pitch and yaw are -a, -b, -c.
-    return [quaternion.from_rpy(-triple) for triple in angle_triples(quaternion.inverse(turn))]
+    return [quaternion.from_rpy(-triple) for triple in all_rpy_angles(quaternion.inverse(turn))]
 
 
 def _degrees_as_radians(turn: Array) -> list[Array]:
     found = []
-    for triple in angle_triples(turn):
+    for triple in all_rpy_angles(turn):
         angles = np.degrees(triple)
         for values in (angles, np.round(angles / _ANGLE_STEP) * _ANGLE_STEP):
             if np.abs(values - angles).max() > 0.1:  # degrees; not round
@@ -320,33 +320,33 @@ def _degrees_as_radians(turn: Array) -> list[Array]:
 def _round_degrees(turn: Array) -> list[Array]:
     """Return the rotations by round angles in degrees that give these rotations if they are used as radians."""
     found = []
-    for triple in angle_triples(turn[:1]):
-        choices = [_round_choices(angle) for angle in triple[0].tolist()]
+    for triple in all_rpy_angles(turn[:1]):
+        choices = [_round_angles(angle) for angle in triple[0].tolist()]
         if any(value != 0.0 for choice in choices for value in choice):
             found += [quaternion.from_rpy(np.radians([each])) for each in product(*choices) if any(each)]
     return found if len(turn) == 1 else []
 
 
-def _round_choices(angle: float) -> list[float]:
+def _round_angles(angle: float) -> list[float]:
     values = np.arange(-360.0, 360.0 + _ANGLE_STEP, _ANGLE_STEP)
     off = np.abs((values - angle + pi) % (2.0 * pi) - pi)
     return [float(value) for value in values[off < _MAX_ANGLE_ERROR]]
 
 
-def _radians_as_degrees(turn: Array) -> list[Array]:
-    return [quaternion.from_rpy(np.radians(triple)) for triple in angle_triples(turn)]
+def _to_radians(turn: Array) -> list[Array]:
+    return [quaternion.from_rpy(np.radians(triple)) for triple in all_rpy_angles(turn)]
 
 
-def _degrees_of_radians(turn: Array) -> list[Array]:
-    return [quaternion.from_rpy(np.degrees(angle_triples(turn)[0]))]
+def _to_degrees(turn: Array) -> list[Array]:
+    return [quaternion.from_rpy(np.degrees(all_rpy_angles(turn)[0]))]
 
 
-def _doubled(turn: Array) -> list[Array]:
-    angles = [quaternion.from_rpy(2.0 * triple) for triple in angle_triples(turn)]
+def _double_angle(turn: Array) -> list[Array]:
+    angles = [quaternion.from_rpy(2.0 * triple) for triple in all_rpy_angles(turn)]
     return [quaternion.multiply(turn, turn), *angles]
 
 
-def _halved(turn: Array) -> list[Array]:
+def _halve_angle(turn: Array) -> list[Array]:
     one = np.array([0.0, 0.0, 0.0, 1.0])
     found = []
     for sign in (1.0, -1.0):
@@ -354,28 +354,28 @@ def _halved(turn: Array) -> list[Array]:
         length = np.linalg.norm(half, axis=1, keepdims=True)
         if (length > 1e-6).all():
             found.append(half / length)
-    return [*found, *(quaternion.from_rpy(triple / 2.0) for triple in angle_triples(turn))]
+    return [*found, *(quaternion.from_rpy(triple / 2.0) for triple in all_rpy_angles(turn))]
 
 
-def _with_sign(axis: int, turn: Array) -> list[Array]:
+def _negate_angle(axis: int, turn: Array) -> list[Array]:
     signs = np.where(np.arange(3) == axis, -1.0, 1.0)
-    return [quaternion.from_rpy(triple * signs) for triple in angle_triples(turn)[:1]]
+    return [quaternion.from_rpy(triple * signs) for triple in all_rpy_angles(turn)[:1]]
 
 
-def _without_angle(axis: int, turn: Array) -> list[Array]:
+def _clear_angle(axis: int, turn: Array) -> list[Array]:
     kept = np.where(np.arange(3) == axis, 0.0, 1.0)
-    return [quaternion.from_rpy(triple * kept) for triple in angle_triples(turn)]
+    return [quaternion.from_rpy(triple * kept) for triple in all_rpy_angles(turn)]
 
 
 def _times(right: Array, turn: Array) -> list[Array]:
     return [quaternion.multiply(turn, right[None])]
 
 
-def _reordered(order: tuple[int, ...], turn: Array) -> list[Array]:
+def _reorder_components(order: tuple[int, ...], turn: Array) -> list[Array]:
     return [turn[:, order]]
 
 
-def _fixed_turn(axis: int, angle: int) -> Mistake:
+def _axis_rotation_mistake(axis: int, angle: int) -> Mistake:
     turn = quaternion.from_rpy(np.radians(angle) * np.eye(3)[axis])
     axes = " (its axes are those of OpenGL: y up, z backward)" if (axis, angle) == (0, 180) else ""
     return Mistake(
@@ -386,7 +386,7 @@ def _fixed_turn(axis: int, angle: int) -> Mistake:
     )
 
 
-def _identity(turn: Array) -> list[Array]:
+def _make_identity(turn: Array) -> list[Array]:
     return [np.broadcast_to(np.array([0.0, 0.0, 0.0, 1.0]), turn.shape)]
 
 
@@ -402,15 +402,15 @@ _ROTATIONS = (
     Mistake(
         "its quaternion is read as w, x, y, z",
         "A quaternion of ROS is x, y, z, w: set rotation.x, .y, .z from the vector and rotation.w from the scalar.",
-        partial(_reordered, (3, 0, 1, 2)),
-        partial(_reordered, (1, 2, 3, 0)),
+        partial(_reorder_components, (3, 0, 1, 2)),
+        partial(_reorder_components, (1, 2, 3, 0)),
     ),
     Mistake(
         "its quaternion x, y, z, w was passed to a function that expects w, x, y, z",
         "Check the order of the function: a quaternion of ROS and of SciPy is x, y, z, w; that of transforms3d, MATLAB "
         "and Eigen's constructor is w, x, y, z.",
-        partial(_reordered, (1, 2, 3, 0)),
-        partial(_reordered, (3, 0, 1, 2)),
+        partial(_reorder_components, (1, 2, 3, 0)),
+        partial(_reorder_components, (3, 0, 1, 2)),
     ),
     Mistake(
         "its angles are degrees that were used as radians",
@@ -421,70 +421,77 @@ _ROTATIONS = (
     Mistake(
         "its angles are radians that were converted from degrees to radians twice",
         "Convert angles to radians only once.",
-        _radians_as_degrees,
-        _degrees_of_radians,
+        _to_radians,
+        _to_degrees,
         precision=pi / 180.0,
     ),
     Mistake("its rotation is inverted", "Publish the inverse rotation: the columns of the matrix are the axes of the "
             "child frame in the parent frame; use R.T for R, and -x, -y, -z, w for x, y, z, w.",
             lambda turn: [quaternion.inverse(turn)], lambda turn: [quaternion.inverse(turn)]),
-    Mistake(_BODY, _BODY_FIX, partial(_times, quaternion.inverse(OPTICAL)), partial(_times, OPTICAL)),
+    Mistake(_BODY_READING, _BODY_FIX, partial(_times, quaternion.inverse(OPTICAL)), partial(_times, OPTICAL)),
     Mistake(
         "its rotation is that of an optical frame, and the frame is the body of the camera",
         "Remove the rotation of optical frames (REP-103), or publish it for the optical frame.",
         partial(_times, OPTICAL),
         partial(_times, quaternion.inverse(OPTICAL)),
     ),
-    _fixed_turn(0, 180),
-    Mistake("its angle is halved (the angle was used for the half angle)", _HALF, _doubled, _halved),
-    Mistake("its angle is doubled (the angle was halved twice)", _HALF, _halved, _doubled),
-    *(_permutation((a, b, c)) for a, b, c in ((2, 1, 0), *permutations(range(3))) if (a, b, c) != (0, 1, 2)),
+    _axis_rotation_mistake(0, 180),
+    Mistake("its angle is halved (the angle was used for the half angle)", _HALF, _double_angle, _halve_angle),
+    Mistake("its angle is doubled (the angle was halved twice)", _HALF, _halve_angle, _double_angle),
+    *(_angle_order_mistake((a, b, c)) for a, b, c in ((2, 1, 0), *permutations(range(3))) if (a, b, c) != (0, 1, 2)),
     Mistake(
         "its angles are applied about fixed axes (extrinsic x, y, z), not about moving ones",
         "Use the convention of ROS: yaw about z, then pitch about the new y, then roll about the new x; in SciPy this "
         "is Rotation.from_euler('xyz', angles) with lower-case letters.",
         _other_convention,
-        _from_other_convention,
+        _from_fixed_axes,
     ),
     *(
         Mistake(
             f"the sign of its {_ANGLES[axis]} is changed",
             f"Check the sign of {_ANGLES[axis]}: positive angles turn counterclockwise, seen against the axis.",
-            partial(_with_sign, axis),
-            partial(_with_sign, axis),
+            partial(_negate_angle, axis),
+            partial(_negate_angle, axis),
         )
         for axis in range(3)
     ),
     Mistake(
-        "its rotation is set: the published one is the identity", "Set the rotation.", _identity, _no_candidates
+        "its rotation is set; the published rotation is the identity",
+        "Set the rotation.",
+        _make_identity,
+        _no_candidates,
     ),
     *(
         Mistake(
-            f"its {_ANGLES[axis]} is set: the published one is 0", f"Set {_ANGLES[axis]}.",
-            partial(_without_angle, axis), _no_candidates,
+            f"its {_ANGLES[axis]} is set; the published value is 0", f"Set {_ANGLES[axis]}.",
+            partial(_clear_angle, axis), _no_candidates,
         )
         for axis in range(3)
     ),
-    *(_fixed_turn(axis, angle) for axis, angle in product(range(3), (180, 90, -90)) if (axis, angle) != (0, 180)),
+    *(
+        _axis_rotation_mistake(axis, angle)
+        for axis, angle in product(range(3), (180, 90, -90))
+        if (axis, angle) != (0, 180)
+    ),
 )  # fmt: skip
 
 
 # Translations
 
 
-def _unit_texts(unit: str) -> tuple[str, str]:
-    return f"its translation is read in {unit}", f"Use meters: divide by {_per_meter(unit)}."
+def _unit_mistake_texts(unit: str) -> tuple[str, str]:
+    return f"its translation is read in {unit}", f"Use meters: divide by {_units_per_meter(unit)}."
 
 
-def _per_meter(unit: str) -> str:
+def _units_per_meter(unit: str) -> str:
     return f"{dict(_UNITS)[unit]:.6g}"
 
 
-def _scaled(factor: float, place: Array) -> list[Array]:
+def _scale(factor: float, place: Array) -> list[Array]:
     return [place * factor]
 
 
-def _reordered_axes(order: tuple[int, ...], place: Array) -> list[Array]:
+def _reorder_axes(order: tuple[int, ...], place: Array) -> list[Array]:
     return [place[:, order]]
 
 
@@ -493,23 +500,26 @@ def _translations(turn: Array) -> list[Mistake]:
     inverse = quaternion.inverse(turn)
     found = [
         Mistake(
-            *_unit_texts(unit), partial(_scaled, factor), partial(_scaled, 1.0 / factor), precision=max(factor, 1.0)
+            *_unit_mistake_texts(unit),
+            partial(_scale, factor),
+            partial(_scale, 1.0 / factor),
+            precision=max(factor, 1.0),
         )
         for unit, factor in _UNITS
     ]
     found.append(
         Mistake(
-            "its translation is read in thousands of meters (it was divided by 1000 twice)",
+            "its translation is read in thousands of meters (the values were divided by 1000 twice)",
             "Convert millimeters to meters only once.",
-            partial(_scaled, 1e-3),
-            partial(_scaled, 1e3),
+            partial(_scale, 1e-3),
+            partial(_scale, 1e3),
             precision=1e-3,
         )
     )
     for axes in ((0,), (1,), (2,), (0, 1, 2)):
         signs = np.where(np.isin(np.arange(3), axes), -1.0, 1.0)
         names = " and ".join(_AXES[axis] for axis in axes) if len(axes) == 1 else "its translation"
-        flip = partial(_with_signs, signs)
+        flip = partial(_apply_signs, signs)
         found.append(
             Mistake(
                 f"the sign of {names} is changed", f"Check the sign of {names}: x forward, y left, z up.", flip, flip
@@ -523,8 +533,8 @@ def _translations(turn: Array) -> list[Mistake]:
                 Mistake(
                     f"its translation is read in the order {names}",
                     "Check the order of the coordinates: x forward, y left, z up.",
-                    partial(_reordered_axes, order),
-                    partial(_reordered_axes, back),
+                    partial(_reorder_axes, order),
+                    partial(_reorder_axes, back),
                 )
             )
     found.append(
@@ -544,12 +554,12 @@ def _translations(turn: Array) -> list[Mistake]:
         )
     )
     found.append(
-        Mistake("its translation is set: the published one is 0", "Set the translation.", _origin, _no_candidates)
+        Mistake("its translation is set; the published value is 0", "Set the translation.", _origin, _no_candidates)
     )
     return found
 
 
-def _with_signs(signs: Array, place: Array) -> list[Array]:
+def _apply_signs(signs: Array, place: Array) -> list[Array]:
     return [place * signs]
 
 

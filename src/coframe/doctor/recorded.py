@@ -11,7 +11,7 @@ import numpy as np
 
 from coframe.bags import from_yaml
 from coframe.bags.namespaces import TransformChoice, namespace_of
-from coframe.bags.recording import open_chosen
+from coframe.bags.recording import open_with_choice
 from coframe.bags.transforms import ingest_for, is_static
 from coframe.doctor._joints import joint_states
 from coframe.doctor._sampled_points import sampled_points
@@ -44,11 +44,11 @@ if TYPE_CHECKING:
     from coframe.bags.storage import Channel
     from coframe.messages.slices import Slices
 
-__all__ = ["collecting", "observe_recording"]
+__all__ = ["collecting_callback", "observe_recording"]
 
 _MAX_DECODED = 2000  # limit of messages per topic
 _MAX_DESCRIPTIONS = 10
-_UNIT = 5e-3  # how far a quaternion is off length 1 in tf2
+_NORM_TOLERANCE = 5e-3  # how far a quaternion is off length 1 in tf2
 _ODOMETRY, _IMU = "nav_msgs/msg/Odometry", "sensor_msgs/msg/Imu"
 _PARTS, _PART = 20, 25  # parts of a topic that are looked at, and successive messages in each
 _MIN_RATE = 1.0  # Hz; what is published more slowly, such as goals, need not be on one track
@@ -105,7 +105,9 @@ def observe_chosen(
     `examine` is called with the open recording, for callers that also need other data of it.
     """
     collectors: dict[str, Collector] = {}
-    with open_chosen(path, choice, progress=progress, on_transforms=collecting(collectors, choice)) as recording:
+    with open_with_choice(
+        path, choice, progress=progress, on_transforms=collecting_callback(collectors, choice)
+    ) as recording:
         if examine is not None:
             examine(recording)
         facts = _Facts(recording)
@@ -119,12 +121,14 @@ def observe_chosen(
                 damaged_messages=collector.damaged,
                 messages_ignored=collector.ignored,
                 topics=facts.topics,
-                sensors=tuple(s for s in facts.sensors if _belongs(s.topic, name, collectors)),
-                descriptions=tuple(text for topic, text in facts.descriptions if _belongs(topic, name, collectors)),
-                joint_states=tuple(j for j in facts.joints if _belongs(j.topic, name, collectors)),
-                positions=tuple(p for p in facts.positions if _belongs(p.topic, name, collectors)),
-                poses=tuple(p for p in facts.poses if _belongs(p.topic, name, collectors)),
-                imus=tuple(i for i in facts.imus if _belongs(i.topic, name, collectors)),
+                sensors=tuple(s for s in facts.sensors if _is_in_namespace(s.topic, name, collectors)),
+                descriptions=tuple(
+                    text for topic, text in facts.descriptions if _is_in_namespace(topic, name, collectors)
+                ),
+                joint_states=tuple(j for j in facts.joints if _is_in_namespace(j.topic, name, collectors)),
+                positions=tuple(p for p in facts.positions if _is_in_namespace(p.topic, name, collectors)),
+                poses=tuple(p for p in facts.poses if _is_in_namespace(p.topic, name, collectors)),
+                imus=tuple(i for i in facts.imus if _is_in_namespace(i.topic, name, collectors)),
                 clock=facts.clock,
                 log=facts.log,
                 cache=cache,
@@ -135,7 +139,7 @@ def observe_chosen(
         }
 
 
-def collecting(
+def collecting_callback(
     collectors: dict[str, Collector], choice: TransformChoice
 ) -> Callable[[Channel, NDArray[np.int64], Slices], None]:
     """Return a callback for :func:`coframe.open_bag` that fills a collector for each namespace.
@@ -156,7 +160,7 @@ def collecting(
     return collect
 
 
-def _belongs(topic: str, namespace: str, namespaces: dict[str, Collector]) -> bool:
+def _is_in_namespace(topic: str, namespace: str, namespaces: dict[str, Collector]) -> bool:
     """Return whether a namespace is the longest one that contains the topic."""
     around = [name for name in namespaces if absolute(topic).startswith(f"{name}/")]
     return namespace == max(around, key=len, default=namespace)
@@ -175,24 +179,24 @@ class _Facts:
         self.sensors = [sensor for name in self.topics for sensor in self._sensors(name)]
         self.positions = [
             ObservedPositions(name, tuple(self._parts(name)))
-            for name in self._of_type(set(_POSES))
+            for name in self._topics_of_type(set(_POSES))
             if recording.topics[name].rate >= _MIN_RATE
         ]
         self.descriptions = [
             (name, str(message.data))
-            for name in self._of_type({"std_msgs/msg/String"})
+            for name in self._topics_of_type({"std_msgs/msg/String"})
             if name.endswith("robot_description")
             for message in self._decoded(name, _MAX_DESCRIPTIONS)
             if hasattr(message, "data")
         ]
         self.joints = [
             joints
-            for name in self._of_type({"sensor_msgs/msg/JointState"})
+            for name in self._topics_of_type({"sensor_msgs/msg/JointState"})
             if (joints := self._joints(name)) is not None
         ]
-        self.poses = [poses for name in self._of_type({_ODOMETRY}) if (poses := self._poses(name)) is not None]
-        self.imus = [imu for name in self._of_type({_IMU}) if (imu := self._imu(name)) is not None]
-        self.log = tuple(line for name in self._of_type(_LOGS) for line in self._lines(name))
+        self.poses = [poses for name in self._topics_of_type({_ODOMETRY}) if (poses := self._poses(name)) is not None]
+        self.imus = [imu for name in self._topics_of_type({_IMU}) if (imu := self._imu(name)) is not None]
+        self.log = tuple(line for name in self._topics_of_type(_LOGS) for line in self._lines(name))
 
     def _publishers(self, topic: str) -> tuple[ObservedEndpoint, ...]:
         """Return the publishers of a static transform topic: only their QoS, because recordings have no node names."""
@@ -202,11 +206,11 @@ class _Facts:
         offers = (offered for channel in channels for offered in from_yaml(channel.offered_qos))
         return tuple(dict.fromkeys(ObservedEndpoint("", offered.transient_local) for offered in offers))
 
-    def _of_type(self, types: set[str]) -> list[str]:
+    def _topics_of_type(self, types: set[str]) -> list[str]:
         return [topic.name for topic in self.topics.values() if topic.type in types]
 
     def _clock(self) -> ObservedClock | None:
-        if "/clock" not in self._of_type({"rosgraph_msgs/msg/Clock"}):
+        if "/clock" not in self._topics_of_type({"rosgraph_msgs/msg/Clock"}):
             return None
         arrived, stamp = self._recording.received("/clock"), self._recording.stamps("/clock")
         return ObservedClock(arrived, stamp) if len(stamp) else None
@@ -232,7 +236,7 @@ class _Facts:
             return
         stamps, received = recording.stamps(topic), recording.received(topic)
         rows_of: dict[str, list[int]] = {}
-        if len(set(recording.frames(topic, np.concatenate(_spread(len(stamps))).tolist()))) > 1:
+        if len(set(recording.frames(topic, np.concatenate(_spread_messages(len(stamps))).tolist()))) > 1:
             for row, frame in enumerate(recording.frames(topic)):
                 rows_of.setdefault(frame.lstrip("/"), []).append(row)
         points = sampled_points(recording, topic, facts.type)
@@ -245,7 +249,7 @@ class _Facts:
     def _parts(self, topic: str) -> Iterator[NDArray[np.float64]]:
         """Yield the positions in successive messages, for parts of the recording."""
         stamps, position = self._recording.stamps(topic), _POSES[self.topics[topic].type]
-        for rows in _spread(len(stamps)):
+        for rows in _spread_messages(len(stamps)):
             messages = self._recording.messages(topic, int(stamps[rows].min(initial=NEVER)))
             found = []
             for recorded in islice(messages, len(rows)):
@@ -284,7 +288,7 @@ class _Facts:
             return None
         with np.errstate(all="ignore"):
             length = np.linalg.norm(values[:, 3:], axis=1, keepdims=True)
-            good = np.isfinite(values).all(axis=1) & (np.abs(length[:, 0] - 1.0) < _UNIT)
+            good = np.isfinite(values).all(axis=1) & (np.abs(length[:, 0] - 1.0) < _NORM_TOLERANCE)
             values[:, 3:] /= length
         (frame, child), rename = frames.pop(), self._recording.frame
         return ObservedPoses(topic, rename(frame), rename(child), stamp[good], values[good])
@@ -313,7 +317,7 @@ class _Facts:
                 yield ObservedLogLine(str(message.name), str(message.msg), arrived)
 
 
-def _spread(messages: int) -> list[NDArray[np.int64]]:
+def _spread_messages(messages: int) -> list[NDArray[np.int64]]:
     """Return the numbers of successive messages in parts that are spread over a topic, or of all messages."""
     if messages <= _PARTS * _PART:
         return [np.arange(messages)]

@@ -25,7 +25,7 @@ __all__ = [
     "publisher_statistics",
 ]
 
-_SAMPLES = 1000
+_CHAIN_SAMPLES = 1000
 
 
 class EdgeStatistics(NamedTuple):
@@ -132,7 +132,7 @@ def chain_statistics(observation: Observation, target: str, source: str) -> Chai
     begin = max((int(edge.arrived[0]) for edge in moving), default=observation.end)
     if not moving or begin >= observation.end:
         return ChainStatistics(frames, None, None, None, None, 0.0)
-    times = np.linspace(begin, observation.end, _SAMPLES).astype(np.int64)
+    times = np.linspace(begin, observation.end, _CHAIN_SAMPLES).astype(np.int64)
     newest = np.array([_newest(edge, times) for edge in moving])
     last = newest.argmin(axis=0)
     delays = observation.lags(newest.min(axis=0), times)

@@ -376,7 +376,7 @@ def _hint(failure: Failure) -> str:
         child=child,
         timeout="0.1",
         bare=failure.name.lstrip("/"),
-        guess=_guess(failure) if failure.code == "unknown_frame" else "",
+        guess=_frame_name_hint(failure) if failure.code == "unknown_frame" else "",
         trees=_trees(failure) if failure.code == "not_connected" else "",
     )
 
@@ -386,7 +386,7 @@ def looks_like_seconds(failure: Failure | TransformException) -> bool:
     return _mistaken_unit(failure) != ""
 
 
-def _guess(failure: Failure) -> str:
+def _frame_name_hint(failure: Failure) -> str:
     known = sorted(failure.parents)
     if not known:
         return "The buffer has not received any transforms. Is a broadcaster running in the same ROS domain?"

@@ -39,7 +39,8 @@ _HINTS = {
     ),
     "no_common_time": _Hint(
         "TF013",
-        "The samples of {limit} end before those of {parent} -> {child} begin, so the two have no common time. Has the "
+        "The samples of {limit} end before those of {parent} -> {child} begin, so the two edges have no common "
+        "time. Has the "
         "publisher of {limit} stopped, or does it use another clock?",
     ),
     "no_data": _Hint("TF012", "The buffer was cleared and has received no transform to {child} since then."),

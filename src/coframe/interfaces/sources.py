@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from coframe.interfaces._installed import installed_packages
 from coframe.interfaces.definition_files import has_definitions, is_own_package, package_name
 from coframe.interfaces.user_folders import added_paths
-from coframe.interfaces.workspace import is_search_off, start_folders, workspace_root
+from coframe.interfaces.workspace import is_search_disabled, start_folders, workspace_root
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -66,7 +66,7 @@ class InterfaceFolder(NamedTuple):
 
 def sources() -> list[InterfaceFolder]:
     """Return all folders in which packages are searched, in order."""
-    if is_search_off():
+    if is_search_disabled():
         return _installed()
     variables = tuple(os.environ.get(name, "") for name in (ENVIRONMENT, _PACKAGE_PATH, _PREFIXES))
     return [*_sources(tuple(start_folders()), *variables), *_installed()]

@@ -15,23 +15,23 @@ from coframe._files.existence import exists, is_file
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["add_start", "is_search_off", "start_folders", "workspace_root"]
+__all__ = ["add_start_folder", "is_search_disabled", "start_folders", "workspace_root"]
 
 _MAX_LEVELS = 12
 _MAX_ENTRIES = 200
 # Folders with programs and libraries of an environment, below its prefix and, on Debian, below `local`.
-_INSTALLED = ("bin", "Scripts", "lib", "lib64", "libexec", "Lib")
+_INSTALLATION_FOLDERS = ("bin", "Scripts", "lib", "lib64", "libexec", "Lib")
 
 
-_added: list[Path] = []
+_added_folders: list[Path] = []
 
 
-def add_start(folder: Path) -> None:
+def add_start_folder(folder: Path) -> None:
     """Add a folder in which the search starts, as if a program in it were running."""
-    _added.append(folder.absolute())
+    _added_folders.append(folder.absolute())
 
 
-def is_search_off() -> bool:
+def is_search_disabled() -> bool:
     """Return whether -I, -P or PYTHONSAFEPATH prevent Python from importing from the folder of the program."""
     if sys.flags.isolated or getattr(sys.flags, "safe_path", False):
         return True
@@ -44,7 +44,9 @@ def start_folders() -> list[Path]:
 
     Installed commands such as pytest do not import from the current folder, so they have none.
     """
-    return list(dict.fromkeys([*_added, *(folder for folder in _program_folders() if not _is_installed(folder))]))
+    return list(
+        dict.fromkeys([*_added_folders, *(folder for folder in _program_folders() if not _is_installed(folder))])
+    )
 
 
 def _program_folders() -> Iterator[Path]:
@@ -62,7 +64,7 @@ def _is_installed(folder: Path) -> bool:
     for prefix in (sys.prefix, sys.base_prefix, os.path.expanduser("~/.local")):  # noqa: PTH111 - as in workspace_root
         if folder.is_relative_to(prefix):
             first = [part for part in folder.relative_to(prefix).parts if part != "local"][:1]
-            if first and first[0] in _INSTALLED:
+            if first and first[0] in _INSTALLATION_FOLDERS:
                 return True
     return False
 

@@ -135,13 +135,13 @@ class DynamicFramePublisher(Node):
         names = list(msg.name)
         found = [name for name in self.joint_names if name in names]
         if len(found) == 1:
-            raise ValueError(f"it has only {found[0]!r} of the joints {self.joint_names}")
+            raise ValueError(f"the message has only {found[0]!r} of the joints {self.joint_names}")
         first, second = (names.index(name) for name in found) if found else (0, 1)
         if len(msg.position) <= max(first, second):
-            raise ValueError(f"it has {len(names)} names and {len(msg.position)} positions")
+            raise ValueError(f"the message has {len(names)} names and {len(msg.position)} positions")
         q1, q2 = msg.position[first], msg.position[second]
         if not (math.isfinite(q1) and math.isfinite(q2)):
-            raise ValueError(f"its positions are {q1} and {q2}, which are not finite")
+            raise ValueError(f"the positions {q1} and {q2} are not finite")
         return q1, q2
 
     def broadcast_arm_transforms(self, q1: float, q2: float, time: Time) -> None:

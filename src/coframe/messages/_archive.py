@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from coframe.distributions import follows
-from coframe.messages._parser import without_comment
+from coframe.messages._parser import remove_comment
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -24,20 +24,20 @@ def pack(definitions: Mapping[str, str]) -> str:
     """Return the archive of definitions, whose keys are names such as ``msg/Pose`` or ``msg/Range humble``."""
     text = ""
     for name, definition in definitions.items():
-        lines = filter(None, map(without_comment, definition.splitlines()))
+        lines = filter(None, map(remove_comment, definition.splitlines()))
         text += "\n".join([f"{_HEADER}{name}", *lines]) + "\n"
     return text
 
 
 def unpack(text: str) -> dict[str, str]:
     """Return the definitions of an archive by name, in the form of the distribution that this process follows."""
-    pieces = _pieces(text)
+    pieces = _split_definitions(text)
     return {name: definition for name, variant, definition in pieces if not variant or follows(variant)}
 
 
 def other_forms(text: str) -> dict[str, str]:
     """Return the definitions that differ between distributions, in the form that this process does not follow."""
-    pieces = list(_pieces(text))
+    pieces = list(_split_definitions(text))
     return {
         name: next(text for other, variant, text in pieces if other == name and not variant)
         if follows(distribution)
@@ -47,7 +47,7 @@ def other_forms(text: str) -> dict[str, str]:
     }
 
 
-def _pieces(text: str) -> Iterator[tuple[str, str, str]]:
+def _split_definitions(text: str) -> Iterator[tuple[str, str, str]]:
     """Yield the name, the distribution ("" for the default form) and the text of each definition."""
     for piece in f"\n{text}".split(f"\n{_HEADER}")[1:]:
         key, _, definition = piece.partition("\n")

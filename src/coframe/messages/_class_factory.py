@@ -136,7 +136,7 @@ def _find_inner(ros_type: str) -> Any:
         chain = " > ".join([*_in_progress[_in_progress.index(ros_type) :], ros_type])
         raise ValueError(f"a message cannot contain itself: {chain}")
     if len(_in_progress) > MAX_DEPTH:
-        raise ValueError(f"more than {MAX_DEPTH} nested messages")
+        raise ValueError(f"messages are nested more than {MAX_DEPTH} levels deep")
     return find(ros_type)
 
 

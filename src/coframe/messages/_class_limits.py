@@ -44,28 +44,28 @@ class _Extents:
 
     def total(self, types: Iterable[AbstractType]) -> _Extent:
         """Return the extent of a message with fields of these types."""
-        listed = [self._of(type_) for type_ in types]
+        listed = [self._extent_of_type(type_) for type_ in types]
         return _Extent(
             _OBJECT + sum(extent.size for extent in listed),
             sum(extent.fields for extent in listed),
             max((extent.loops for extent in listed), default=0),
         )
 
-    def _of(self, type_: AbstractType) -> _Extent:
+    def _extent_of_type(self, type_: AbstractType) -> _Extent:
         if isinstance(type_, NamespacedType):
-            return self._of_message("/".join(type_.namespaced_name()))
+            return self._extent_of_message("/".join(type_.namespaced_name()))
         if not isinstance(type_, AbstractNestedType):
             return _Extent()
         number = number_of(type_)
         if number is not None:
             return _Extent(_OBJECT + (type_.size * number.dtype.itemsize if isinstance(type_, Array) else 0))
-        inner = self._of(type_.value_type)
+        inner = self._extent_of_type(type_.value_type)
         count = type_.size if isinstance(type_, Array) else 0
         # The encoder writes booleans and octets without a loop.
         loops = inner.loops + (0 if isinstance(type_.value_type, BasicType) else 1)
         return _Extent(_OBJECT + count * (_REFERENCE + inner.size), inner.fields, loops)
 
-    def _of_message(self, ros_type: str) -> _Extent:
+    def _extent_of_message(self, ros_type: str) -> _Extent:
         if ros_type not in self._known:
             self._known[ros_type] = self.total(self._fields_of(ros_type))
         return self._known[ros_type]
@@ -92,10 +92,10 @@ def check_limits(
     extent = (_registered if fields_of is None else _Extents(fields_of)).total(types)
     if extent.size > MAX_BYTES:
         raise ValueError(
-            f"a message with default values would need {extent.size} bytes of memory, more than the limit of "
-            f"{MAX_BYTES}; use a sequence such as float64[], which is empty by default"
+            f"a message with default values would need {extent.size} bytes of memory; the maximum is "
+            f"{MAX_BYTES}. Use a sequence such as float64[], which is empty by default"
         )
     if extent.fields > MAX_FIELDS:
-        raise ValueError(f"the message and those inside it have {extent.fields} fields, more than {MAX_FIELDS}")
+        raise ValueError(f"the message and those inside it have {extent.fields} fields; the maximum is {MAX_FIELDS}")
     if extent.loops > MAX_LOOPS:
-        raise ValueError(f"more than {MAX_LOOPS} nested sequences")
+        raise ValueError(f"sequences are nested more than {MAX_LOOPS} levels deep")

@@ -34,7 +34,7 @@ class Compiler(ABC):
         self.cls = cls
         self.is_ros1 = is_ros1
         self.order = order
-        self.swapped = (order == "<") != (sys.byteorder == "little")
+        self.needs_swap = (order == "<") != (sys.byteorder == "little")
         self.lines = [start]
         self.indent = 1
         self.names: dict[str, Any] = {"array": array, "RejectedValueError": RejectedValueError}
@@ -57,9 +57,9 @@ class Compiler(ABC):
     def emit(self, line: str, subject: str = "") -> None:
         """Add a line of source; `subject` names the fields that it handles, by default the current field."""
         self.lines.append("    " * self.indent + line)
-        self.subjects[len(self.lines)] = subject or self.here()
+        self.subjects[len(self.lines)] = subject or self.current_path()
 
-    def here(self) -> str:
+    def current_path(self) -> str:
         """Return the path of the current field in the message."""
         return "".join(self.path).lstrip(".") or "the byte of an empty message"
 
@@ -87,7 +87,7 @@ class Compiler(ABC):
         """Add a number to the current run, which is written from, or read into, the expression."""
         self.codes += code
         self.pending.append(expression)
-        self.pending_paths.append(self.here())
+        self.pending_paths.append(self.current_path())
 
     def take_run(self) -> tuple[Run, str, str] | None:
         """End the current run and return its layouts, its expressions and its fields; None if the run is empty."""
@@ -142,7 +142,7 @@ class Plan:
         self.run = compiler.function()
         self._subjects = compiler.subjects
 
-    def where(self, error: BaseException) -> tuple[str, dict[str, Any]]:
+    def locate_error(self, error: BaseException) -> tuple[str, dict[str, Any]]:
         """Return the fields that `run` handled when it raised the error, and its local variables."""
         traceback = error.__traceback__
         while traceback is not None and traceback.tb_frame.f_code is not self.run.__code__:

@@ -37,10 +37,10 @@ def _default(field: Field, class_name: Callable[[NamespacedType], str]) -> str:
     if isinstance(type_, Array) and number:
         return f"np.zeros({type_.size}, np.{number.dtype.name})"
     if isinstance(type_, Array):
-        return f"[{_zero(type_.value_type, class_name)} for _ in range({type_.size})]"
+        return f"[{_zero_value(type_.value_type, class_name)} for _ in range({type_.size})]"
     if number:
         return f'array("{number.code}")'
-    return "[]" if isinstance(type_, AbstractNestedType) else _zero(type_, class_name)
+    return "[]" if isinstance(type_, AbstractNestedType) else _zero_value(type_, class_name)
 
 
 def _given_default(value: Any, type_: AbstractType) -> str:
@@ -59,7 +59,7 @@ def _literal(value: Any) -> str:
     return f'float("{value}")' if isinstance(value, float) and not math.isfinite(value) else repr(value)
 
 
-def _zero(type_: AbstractType, class_name: Callable[[NamespacedType], str]) -> str:
+def _zero_value(type_: AbstractType, class_name: Callable[[NamespacedType], str]) -> str:
     if isinstance(type_, NamespacedType):
         return f"{class_name(type_)}()"
     if isinstance(type_, BasicType):

@@ -116,7 +116,7 @@ class _Decoder(Compiler):
         if isinstance(type_, BoundedWString):
             self._check_bound(length, type_.maximum_size, "characters")
         end = self._end(length, 4)
-        self.emit(f"{place} = {self.constant(_from_utf16_units)}(data[pos:{end}], {self.swapped})")
+        self.emit(f"{place} = {self.constant(_from_utf16_units)}(data[pos:{end}], {self.needs_swap})")
         self.emit(f"pos = {end}")
 
     def _values(self, type_: AbstractNestedType, place: str) -> None:
@@ -158,7 +158,7 @@ class _Decoder(Compiler):
             self._align(number.dtype.itemsize)
             end = self._end(length, number.dtype.itemsize)
             self.emit(f"{values}.frombytes(view[pos:{end}])")
-            if self.swapped:
+            if self.needs_swap:
                 self.emit(f"{values}.byteswap()")
             self.emit(f"pos = {end}")
         self.offset = empty | Offset(number.dtype.itemsize, 0)

@@ -80,7 +80,7 @@ class _Encoder(Compiler):
         if isinstance(type_, BoundedString):
             self._reject_if(f"len({place}) > {type_.maximum_size}", f"more than {type_.maximum_size} characters")
         self.emit(f"{text} = {place}.encode()")
-        self._reject_if(f"0 in {text}", "a NUL character inside the string; ROS strings end at the first NUL")
+        self._reject_if(f"0 in {text}", "the string contains a NUL character, but ROS strings end at the first NUL")
         self.number("I", f"len({text}) + 1")
         self.flush()
         self.emit(f"out += {text}")
@@ -148,7 +148,7 @@ class _Encoder(Compiler):
         self.align(size, f"out += {self.constant(padding)}[len(out) & {size - 1}]")
 
     def _swap(self, values: str) -> None:
-        if self.swapped:
+        if self.needs_swap:
             self.emit(f"{values} = {self.constant(_swap_bytes)}({values})")
 
     def _reject_if(self, condition: str, found: str) -> None:

@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 
 __all__ = ["parse_idl", "parse_recorded_idl"]
 
-_BASIC = {
+_BASIC_TYPES = {
     "short": "int16",
     "long": "int32",
     "long long": "int64",
@@ -180,15 +180,15 @@ class _IdlParser:
                 )
                 raise self._tokens.error(f"'{word}': {known}", line)
         except ValueError as error:
-            raise self._with_line(error, line) from None
+            raise self._add_line(error, line) from None
         self._tokens.expect(";")
 
-    def _with_line(self, error: ValueError, line: int) -> InterfaceError:
+    def _add_line(self, error: ValueError, line: int) -> InterfaceError:
         return self._tokens.error(str(error), line) if getattr(error, "line", None) is None else error  # type: ignore[return-value]
 
     def _module(self, scope: tuple[str, ...]) -> None:
         if len(scope) == MAX_NESTING:
-            raise self._tokens.error(f"more than {MAX_NESTING} nested modules")
+            raise self._tokens.error(f"modules are nested more than {MAX_NESTING} levels deep")
         inner = (*scope, self._tokens.take("name").text)
         self._tokens.expect("{")
         while not self._tokens.accept("}"):
@@ -199,7 +199,7 @@ class _IdlParser:
         if not self._is_recorded:
             check_message_name(name.partition("_")[0])
         if len(self._structures) == MAX_TYPES:
-            raise self._tokens.error(f"more than {MAX_TYPES} structures")
+            raise self._tokens.error(f"the definition has more than {MAX_TYPES} structures")
         self._tokens.expect("{")
         structure = MessageStructure([], [], annotations.comment)
         names: set[str] = set()
@@ -210,10 +210,10 @@ class _IdlParser:
                     add_unique(names, field.name)
                     add_member(structure, field)
             except ValueError as error:
-                raise self._with_line(error, line) from None
+                raise self._add_line(error, line) from None
         if [field.name for field in structure.fields] == ["structure_needs_at_least_one_member"]:
             structure.fields.clear()  # rosidl writes this member into structures without fields.
-        self._structures.setdefault(self._without_dds((*scope, name)), structure)
+        self._structures.setdefault(self._remove_dds_parts((*scope, name)), structure)
 
     def _members(self, scope: tuple[str, ...]) -> list[Field]:
         default = self._annotations().default
@@ -232,11 +232,11 @@ class _IdlParser:
                 return fields
 
     def _const(self, scope: tuple[str, ...]) -> None:
-        type_ = self._nestable(scope)
+        type_ = self._nestable_type(scope)
         name = self._tokens.take("name").text
         self._tokens.expect("=")
         if len(self._constants) == MAX_CONSTANTS:
-            raise self._tokens.error(f"more than {MAX_CONSTANTS} constants")
+            raise self._tokens.error(f"the definition has more than {MAX_CONSTANTS} constants")
         self._constants.setdefault((*scope, name), Constant(name, type_, checked(self._value(scope), type_)))
 
     def _typedef(self, scope: tuple[str, ...]) -> None:
@@ -248,12 +248,12 @@ class _IdlParser:
         if not self._tokens.accept("sequence"):
             return self._single(scope)
         self._tokens.expect("<")
-        inner = self._nestable(scope)
+        inner = self._nestable_type(scope)
         bound = self._size(scope, in_brackets=True) if self._tokens.accept(",") else None
         self._tokens.expect(">")
         return UnboundedSequence(inner) if bound is None else BoundedSequence(inner, bound)
 
-    def _nestable(self, scope: tuple[str, ...]) -> AbstractNestableType:
+    def _nestable_type(self, scope: tuple[str, ...]) -> AbstractNestableType:
         type_ = None if self._tokens.peek().text == "sequence" else self._single(scope)
         if not isinstance(type_, AbstractNestableType):
             raise self._tokens.error(
@@ -270,8 +270,8 @@ class _IdlParser:
             name = f"{name} {word}"
             if word == "long" and name == "unsigned long" and self._tokens.accept("long"):
                 name += " long"
-        if name in _BASIC:
-            return BasicType(_BASIC[name])
+        if name in _BASIC_TYPES:
+            return BasicType(_BASIC_TYPES[name])
         if name == "char" and self._is_recorded:
             return BasicType("uint8")
         if name in _TYPES_WITHOUT_PYTHON:
@@ -296,7 +296,7 @@ class _IdlParser:
                 return self._typedefs[known]
         if len(parts) == 1:
             parts = (*scope, *parts)
-        parts = self._without_dds(parts)
+        parts = self._remove_dds_parts(parts)
         if self._is_recorded and len(parts) == 2:
             parts = (parts[0], "msg", parts[1])
         if len(parts) != 3 or parts[1] not in _SUFFIXES:
@@ -316,7 +316,7 @@ class _IdlParser:
             )
         return Array(type_, size)
 
-    def _without_dds(self, path: tuple[str, ...]) -> tuple[str, ...]:
+    def _remove_dds_parts(self, path: tuple[str, ...]) -> tuple[str, ...]:
         """Return a scoped name without the parts that rosidl adds to DDS names."""
         if not self._is_recorded or len(path) < 2 or path[-2] != _DDS_MODULE:
             return path
@@ -339,7 +339,7 @@ class _IdlParser:
         try:
             return evaluate(self._tokens, constant, in_brackets=in_brackets)
         except ValueError as error:
-            raise self._with_line(error, line) from None
+            raise self._add_line(error, line) from None
 
     def _annotations(self) -> _Annotations:
         default, comment = None, ""

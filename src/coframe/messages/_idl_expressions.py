@@ -78,7 +78,7 @@ class _Expression:
 
     def _unary(self, depth: int) -> Any:
         if depth > MAX_NESTING:
-            raise self._tokens.error(f"more than {MAX_NESTING} nested parentheses or signs")
+            raise self._tokens.error(f"parentheses or signs are nested more than {MAX_NESTING} levels deep")
         token = self._tokens.peek()
         if token.kind == "string":
             return self._tokens.strings()
@@ -103,7 +103,7 @@ def _apply(symbol: str, left: Any, right: Any) -> Any:
     _require_number(left, symbol)
     _require_number(right, symbol)
     if symbol in {"<", ">"} and not 0 <= right < _BITS:
-        raise ValueError(f"a shift by {right} bits; the number of bits must be from 0 to {_BITS - 1}")
+        raise ValueError(f"a value is shifted by {right} bits; the number of bits must be from 0 to {_BITS - 1}")
     if symbol in {"/", "%"}:
         return _divide_checked(symbol, left, right)
     return _check_bits(_FUNCTIONS[symbol](left, right))
@@ -127,7 +127,7 @@ def _require_number(value: Any, symbol: str) -> Any:
 
 def _check_bits(value: Any) -> Any:
     if isinstance(value, int) and value.bit_length() > _BITS:
-        raise ValueError(f"a value of {value.bit_length()} bits, more than {_BITS}")
+        raise ValueError(f"a value has {value.bit_length()} bits; the maximum is {_BITS}")
     return value
 
 

@@ -8,7 +8,7 @@ import re
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.errors import InterfaceError
-from coframe.messages._parser import shortened
+from coframe.messages._parser import truncate
 from coframe.messages.limits import MAX_LINE
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ class Tokens:
             if match.lastgroup != "space":
                 if len(match.group()) > MAX_LINE:
                     raise self.error(
-                        f"a {match.lastgroup} of {len(match.group())} characters, more than {MAX_LINE}", line
+                        f"a {match.lastgroup} has {len(match.group())} characters; the maximum is {MAX_LINE}", line
                     )
                 yield Token(str(match.lastgroup), match.group(), line)
             line += match.group().count("\n")
@@ -70,7 +70,7 @@ class Tokens:
 
     def error(self, text: str, line: int | None = None) -> InterfaceError:
         """Return an error at a line, by default the line of the next token."""
-        return InterfaceError(shortened(text), line=self.peek().line if line is None else line, file=self._file)
+        return InterfaceError(truncate(text), line=self.peek().line if line is None else line, file=self._file)
 
     def peek(self) -> Token:
         """Return the next token without taking it."""

@@ -20,13 +20,13 @@ from coframe.messages.definition import (
 )
 from coframe.messages.limits import check_digits
 
-__all__ = ["checked", "literal"]
+__all__ = ["checked", "parse_literal"]
 
 _BOOLEANS = {"true": True, "1": True, "false": False, "0": False}
 _FLOAT32_BOUND = 3.402823466e38
 
 
-def literal(text: str, type_: AbstractType) -> Any:
+def parse_literal(text: str, type_: AbstractType) -> Any:
     """Return the value that a ``.msg`` file gives as text.
 
     Raises:
@@ -35,7 +35,7 @@ def literal(text: str, type_: AbstractType) -> Any:
     if isinstance(type_, AbstractNestedType):
         if not (text.startswith("[") and text.endswith("]")):
             raise ValueError(f"the default of {describe(type_)} must be a list such as [1, 2], not {text}")
-        return checked([_single(item, type_.value_type) for item in _items(text)], type_)
+        return checked([_single(item, type_.value_type) for item in _split_items(text)], type_)
     return checked(_single(text, type_), type_)
 
 
@@ -53,17 +53,17 @@ def checked(value: Any, type_: AbstractType) -> Any:
     if not isinstance(type_, BasicType):
         return _checked_text(value, type_)
     if type_.typename == "boolean":
-        return _require(value, isinstance(value, bool), "boolean")
+        return _require_fitting(value, isinstance(value, bool), "boolean")
     if type_.typename in {"float", "double"}:
         bound = _FLOAT32_BOUND if type_.typename == "float" else sys.float_info.max
         fits = isinstance(value, (int, float)) and not isinstance(value, bool)
         if fits:
             fits = abs(value) <= bound or value != value or abs(value) == float("inf")  # noqa: PLR0124 - NaN
-        return float(_require(value, fits, type_.typename))
+        return float(_require_fitting(value, fits, type_.typename))
     return _checked_integer(value, type_.typename)
 
 
-def _require(value: Any, fits: object, type_name: str) -> Any:
+def _require_fitting(value: Any, fits: object, type_name: str) -> Any:
     if not fits:
         raise ValueError(f"{value!r} is not a value of type {type_name}")
     return value
@@ -74,12 +74,12 @@ def _checked_integer(value: Any, typename: str) -> Any:
     bits = int(digits or 8)
     low, high = (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) if digits and signed != "u" else (0, 2**bits - 1)
     fits = isinstance(value, int) and not isinstance(value, bool) and low <= value <= high
-    _require(value, fits, f"{typename} (from {low} to {high})")
+    _require_fitting(value, fits, f"{typename} (from {low} to {high})")
     return bytes([value]) if typename == "octet" else value
 
 
 def _checked_text(value: Any, type_: AbstractType) -> str:
-    _require(value, isinstance(value, str), describe(type_))
+    _require_fitting(value, isinstance(value, str), describe(type_))
     if "\0" in value:
         raise ValueError("a string cannot contain a NUL character")
     if isinstance(type_, (BoundedString, BoundedWString)) and len(value) > type_.maximum_size:
@@ -88,7 +88,7 @@ def _checked_text(value: Any, type_: AbstractType) -> str:
 
 
 def _checked_values(values: Any, type_: AbstractNestedType) -> list[Any]:
-    _require(values, isinstance(values, (list, tuple)), describe(type_))
+    _require_fitting(values, isinstance(values, (list, tuple)), describe(type_))
     if isinstance(type_, Array) and len(values) != type_.size:
         raise ValueError(f"{describe(type_)} needs {type_.size} values, found {len(values)}")
     if isinstance(type_, BoundedSequence) and len(values) > type_.maximum_size:
@@ -129,7 +129,7 @@ def _unquote(text: str) -> str:
     return value
 
 
-def _items(text: str) -> list[str]:
+def _split_items(text: str) -> list[str]:
     """Return the items of a list; a comma inside quotes does not separate items."""
     items, item, quote = [], "", ""
     for character in text[1:-1]:

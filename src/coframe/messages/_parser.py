@@ -7,7 +7,7 @@ import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe.errors import InterfaceError
-from coframe.messages._literals import literal
+from coframe.messages._literals import parse_literal
 from coframe.messages.definition import (
     AbstractNestableType,
     AbstractType,
@@ -158,7 +158,7 @@ def parse_structure(
     structure = MessageStructure([], [], _opening_comment(line for _, line in lines))
     names: set[str] = set()
     for number, line in lines:
-        content = without_comment(line)
+        content = remove_comment(line)
         if not content:
             continue
         try:
@@ -166,7 +166,7 @@ def parse_structure(
             add_unique(names, member.name)
             add_member(structure, member)
         except ValueError as error:
-            raise InterfaceError(f"{shortened(str(error))}, in: {shortened(content)}", line=number, file=file) from None
+            raise InterfaceError(f"{truncate(str(error))}, in: {truncate(content)}", line=number, file=file) from None
     return structure
 
 
@@ -175,16 +175,16 @@ def add_member(structure: MessageStructure, member: Field | Constant) -> None:
     if isinstance(member, Field):
         structure.fields.append(member)
         if len(structure.fields) > MAX_FIELDS:
-            raise ValueError(f"more than {MAX_FIELDS} fields")
+            raise ValueError(f"the definition has more than {MAX_FIELDS} fields")
     else:
         structure.constants.append(member)
         if len(structure.constants) > MAX_CONSTANTS:
-            raise ValueError(f"more than {MAX_CONSTANTS} constants")
+            raise ValueError(f"the definition has more than {MAX_CONSTANTS} constants")
 
 
 def _parse_line(content: str, package: str, rules: Rules) -> Field | Constant:
     if len(content) > MAX_LINE:
-        raise ValueError(f"a line of {len(content)} characters, more than {MAX_LINE}")
+        raise ValueError(f"a line has {len(content)} characters; the maximum is {MAX_LINE}")
     match = _LINE.fullmatch(content)
     if match is None:
         raise ValueError("not a field such as 'float64 x' or a constant such as 'uint8 RED=1'")
@@ -195,14 +195,14 @@ def _parse_line(content: str, package: str, rules: Rules) -> Field | Constant:
             raise ValueError("a constant must be a number, a boolean or a string")
         if not rules.constant.fullmatch(name):
             raise ValueError(f"the name of a constant has {rules.constant_text}, not {name!r}")
-        return Constant(name, value_type, literal(match["value"], value_type))
+        return Constant(name, value_type, parse_literal(match["value"], value_type))
     if not rules.field.fullmatch(name):
         raise ValueError(f"the name of a field has {rules.field_text}, not {name!r}")
     field_type = _nested_type(value_type, match["many"]) if match["many"] else value_type
-    return Field(name, field_type, literal(match["value"], field_type) if match["value"] else None)
+    return Field(name, field_type, parse_literal(match["value"], field_type) if match["value"] else None)
 
 
-def shortened(text: str) -> str:
+def truncate(text: str) -> str:
     """Truncate a text for an error message."""
     longest = 200
     return text if len(text) <= longest else f"{text[:longest]}..."
@@ -218,7 +218,7 @@ def _opening_comment(lines: Iterable[str]) -> str:
     return " ".join(comments)
 
 
-def without_comment(line: str) -> str:
+def remove_comment(line: str) -> str:
     """Return the line up to a ``#`` that is not inside a quoted string."""
     return re.sub(r"""^((?:[^#"']|"(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*')*)#.*$""", r"\1", line).strip()
 
@@ -227,7 +227,7 @@ def bounded_size(digits: str) -> int:
     """Return the size of an array or the bound of a sequence or string."""
     size = int(digits) if len(digits) < len(str(MAX_VALUES)) + 1 else MAX_VALUES + 1
     if not 1 <= size <= MAX_VALUES:
-        raise ValueError(f"a size must be from 1 to {MAX_VALUES}, not {shortened(digits)}")
+        raise ValueError(f"a size must be from 1 to {MAX_VALUES}, not {truncate(digits)}")
     return size
 
 

@@ -57,7 +57,7 @@ def _serialize_in_python(message: Message, cls: type[Message]) -> bytes:
         plan.run(out, message)
     except (struct.error, AttributeError, TypeError, ValueError, OverflowError) as error:
         kind = TypeError if isinstance(error, (AttributeError, TypeError)) else ValueError
-        raise kind(f"cannot serialize {cls.ROS_TYPE}, field {plan.where(error)[0]}: {error}") from error
+        raise kind(f"cannot serialize {cls.ROS_TYPE}, field {plan.locate_error(error)[0]}: {error}") from error
     return bytes(out)
 
 
@@ -98,7 +98,7 @@ def _deserialize_in_python(data: bytes, cls: type[M], max_rest: int | None = Non
         message: M
         message, end = plan.run(data)
     except (struct.error, ValueError) as error:
-        converted = _in_other_form(data, cls)
+        converted = _deserialize_if_other_form(data, cls)
         if converted is not None:
             return converted
         raise _decode_error(error, plan, data, cls) from None
@@ -110,7 +110,7 @@ def _deserialize_in_python(data: bytes, cls: type[M], max_rest: int | None = Non
     return message
 
 
-def _in_other_form(data: bytes, cls: type[M]) -> M | None:
+def _deserialize_if_other_form(data: bytes, cls: type[M]) -> M | None:
     """Return the message if the bytes are one of the definition that another distribution has; None otherwise."""
     from coframe.messages import other_forms  # noqa: PLC0415 - rarely needed
 
@@ -216,7 +216,7 @@ def _header_error(cls: type[Message], data: bytes) -> DecodeError:
 
 
 def _decode_error(error: Exception, plan: Plan, data: bytes, cls: type[Message]) -> DecodeError:
-    fields, variables = plan.where(error)
+    fields, variables = plan.locate_error(error)
     offset, expected = variables["pos"], str(error)
     if isinstance(error, struct.error):
         expected = f"more than the {max(len(data) - offset, 0)} remaining bytes"

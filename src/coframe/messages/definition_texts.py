@@ -19,7 +19,7 @@ from coframe.messages.definition import (
     BoundedWString,
     NamespacedType,
 )
-from coframe.messages.packages import find_package, is_generated, shipped
+from coframe.messages.packages import find_package, find_shipped, is_generated
 from coframe.messages.registry import class_of, find
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ def source_of(ros_type: str) -> tuple[str, str]:
     """
     package, kind, name = ros_type.split("/")
     find(ros_type)
-    found = shipped(package) if is_generated(package) else find_package(package)
+    found = find_shipped(package) if is_generated(package) else find_package(package)
     if found is None or name not in found.names(kind):
         return "implicit", ""
     definition = found.definition(kind, name)
@@ -130,7 +130,7 @@ def _definition(ros_type: str) -> _Definition:
         find(ros_type.removesuffix(_EVENT))
         return _write_definition(event(package, name.removesuffix(_EVENT), kind))
     find(ros_type)
-    found = shipped(package) if is_generated(package) else find_package(package)
+    found = find_shipped(package) if is_generated(package) else find_package(package)
     if found is None:
         raise LookupError(f"no package {package}")
     if kind == "msg":

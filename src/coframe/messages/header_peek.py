@@ -34,9 +34,9 @@ __all__ = [
     "FirstStamp",
     "HeaderPeek",
     "StampReader",
+    "begins_with_header",
     "first_stamp",
     "known_first_stamp",
-    "opens_with_header",
     "peek_header",
     "stamp_reader",
 ]
@@ -107,7 +107,7 @@ def peek_header(message: bytes, encoding: str = "cdr") -> HeaderPeek | None:
     return HeaderPeek(seconds * time.SECOND + nanoseconds, text.decode("utf-8", "backslashreplace"))
 
 
-def opens_with_header(ros_type: str) -> bool:
+def begins_with_header(ros_type: str) -> bool:
     """Return whether coframe has a class for the type whose messages begin with a header."""
     return known_first_stamp(ros_type) is FirstStamp.HEADER
 

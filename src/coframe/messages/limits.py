@@ -44,4 +44,4 @@ MAX_RECORDED_FIELDS = 100_000  # of all classes that are made from the definitio
 def check_digits(text: str) -> None:
     """Raise ValueError if a number has too many digits to be read."""
     if len(text) > MAX_DIGITS:
-        raise ValueError(f"a number of {len(text)} characters, more than {MAX_DIGITS}")
+        raise ValueError(f"a number has {len(text)} characters; the maximum is {MAX_DIGITS}")

@@ -26,13 +26,13 @@ __all__ = [
     "InterfacePackage",
     "exports",
     "find_package",
+    "find_shipped",
     "is_generated",
     "load_package",
-    "shipped",
     "shipped_exports",
 ]
 
-_SHIPPED = Path(__file__).parent / "shipped"
+_SHIPPED = Path(__file__).parent / "find_shipped"
 _GENERATED = Path(__file__).parent / "generated"
 
 
@@ -113,7 +113,7 @@ class InterfacePackage:
             raise InterfaceError(
                 f"field {error.field!r}: {error.problem}",
                 file=file,
-                line=_line_of(error.field, text),
+                line=_find_line(error.field, text),
                 hint=_other_packages_hint(error.missing),
             ) from None
 
@@ -121,12 +121,12 @@ class InterfacePackage:
 def _other_packages_hint(ros_type: str) -> str:
     """Return a hint about packages that contain a type with the name of a missing one; "" if there are none."""
     _, _, name = ros_type.rpartition("/")
-    found = [package for package in map(shipped, shipped_names()) if package and name in package.names("msg")]
+    found = [package for package in map(find_shipped, shipped_names()) if package and name in package.names("msg")]
     names = " or ".join(f"{package.name}/{name}" for package in found[:3])
     return f"Did you mean {names}?" if names else ""
 
 
-def _line_of(field: str, text: str) -> int | None:
+def _find_line(field: str, text: str) -> int | None:
     word = re.compile(rf"\s{field}\b")
     return next((number for number, line in enumerate(text.splitlines(), 1) if word.search(line)), None)
 
@@ -138,7 +138,7 @@ def find_package(name: str) -> InterfacePackage | None:
     """Return the user's package with a name, or the one that coframe contains; None if there is none."""
     if name not in _found:
         folder = sources.find_folder(name)
-        _found[name] = shipped(name) if folder is None else load_package(name, folder)
+        _found[name] = find_shipped(name) if folder is None else load_package(name, folder)
     return _found[name]
 
 
@@ -162,7 +162,7 @@ def is_generated(name: str) -> bool:
 
 
 @functools.cache
-def shipped(name: str) -> InterfacePackage | None:
+def find_shipped(name: str) -> InterfacePackage | None:
     """Return an interface package that coframe contains, None if coframe does not have it."""
     path = _SHIPPED / f"{name}.txt"
     if not path.is_file():
@@ -216,6 +216,6 @@ def shipped_exports(package: str, kind: str) -> Exports:
     """Return the exports of a package that coframe contains, or of the user's package with the same name."""
     found = find_package(package)
     if found is None or kind not in found.kinds():
-        found = shipped(package)
+        found = find_shipped(package)
     assert found is not None, package
     return exports(found, kind)

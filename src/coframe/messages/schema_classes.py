@@ -84,7 +84,7 @@ class SchemaClasses:
         return made[schema.name]
 
     def _class(self, name: str, structure: MessageStructure, made: dict[str, Any], *, is_ros1: bool) -> Any:
-        fields = [field._replace(type=_with_class(field.type, made)) for field in structure.fields]
+        fields = [field._replace(type=_add_class(field.type, made)) for field in structure.fields]
         known = known_class(name)
         if known is not None and _matches(name, fields, known, is_ros1=is_ros1):
             return known
@@ -92,7 +92,9 @@ class SchemaClasses:
         if key not in self._classes:
             self._cost += len(fields) + _CLASS_COST
             if self._cost > MAX_RECORDED_FIELDS:
-                raise InterfaceError(f"the definitions of the recording have more than {MAX_RECORDED_FIELDS} fields")
+                raise InterfaceError(
+                    f"the definitions of the recording exceed the maximum of {MAX_RECORDED_FIELDS} fields"
+                )
             inner = {
                 class_name(type_): class_of(type_) for type_ in map(_value_type, (f.type for f in fields)) if type_
             }
@@ -136,8 +138,8 @@ class ResolvedSchema:
             try:
                 check_limits([field.type], self.types_of)
             except ValueError:
-                return self._schema.line_of(self.name, field.name)
-        return self._schema.line_of(self.name, fields[-1].name)
+                return self._schema.find_line(self.name, field.name)
+        return self._schema.find_line(self.name, fields[-1].name)
 
     def has_field(self, name: str) -> bool:
         """Return whether the message has a field."""
@@ -150,7 +152,7 @@ class ResolvedSchema:
             chain = " > ".join([*above[above.index(name) :], name])
             raise InterfaceError(f"a message cannot contain itself: {chain}")
         if len(above) > MAX_DEPTH:
-            raise InterfaceError(f"more than {MAX_DEPTH} nested messages")
+            raise InterfaceError(f"messages are nested more than {MAX_DEPTH} levels deep")
         above.append(name)
         fields = [self._field(field, name, above) for field in structure.fields]
         if [field.name for field in fields] == ["structure_needs_at_least_one_member"]:
@@ -168,7 +170,7 @@ class ResolvedSchema:
             try:
                 self._add(name, self._schema.structures[name], above)
             except InterfaceError as error:
-                error.line = error.line or self._schema.line_of(owner, field.name)
+                error.line = error.line or self._schema.find_line(owner, field.name)
                 raise
         else:
             name = _known_name(type_, home)
@@ -176,7 +178,7 @@ class ResolvedSchema:
             missing = "/".join(filter(None, type_.namespaced_name()))
             raise InterfaceError(
                 f"field {field.name!r} of {owner}: the recording does not define {missing}",
-                line=self._schema.line_of(owner, field.name),
+                line=self._schema.find_line(owner, field.name),
             )
         *namespaces, last = name.split("/")
         return field._replace(type=_replace_value_type(field.type, NamespacedType(tuple(namespaces), last)))
@@ -196,23 +198,23 @@ def _matches(name: str, fields: list[Field], known: Any, *, is_ros1: bool) -> bo
         fields = fields[1:]  # Bags have this field also if they were converted with the definition of ROS 2.
     names = [slot[1:].lower() for slot in known.__slots__]
     return [field.name.lower() for field in fields] == names and all(
-        _is_same(field.type, type_) for field, type_ in zip(fields, known.SLOT_TYPES, strict=True)
+        _is_same_type(field.type, type_) for field, type_ in zip(fields, known.SLOT_TYPES, strict=True)
     )
 
 
-def _is_same(recorded: AbstractType, known: AbstractType) -> bool:
+def _is_same_type(recorded: AbstractType, known: AbstractType) -> bool:
     if isinstance(recorded, NamespacedType) and isinstance(known, NamespacedType):
         return class_of(recorded) is class_of(known)
     if isinstance(recorded, AbstractNestedType) and isinstance(known, AbstractNestedType):
         return (
             type(recorded) is type(known)
             and recorded == _replace_value_type(known, recorded.value_type)
-            and _is_same(recorded.value_type, known.value_type)
+            and _is_same_type(recorded.value_type, known.value_type)
         )
     return recorded == known
 
 
-def _with_class(type_: AbstractType, made: dict[str, Any]) -> AbstractType:
+def _add_class(type_: AbstractType, made: dict[str, Any]) -> AbstractType:
     """Return the type of a field, with the class of its messages if their name does not find it."""
     inner = _value_type(type_)
     cls = None if inner is None else made.get("/".join(inner.namespaced_name()))

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from coframe.errors import InterfaceError
 from coframe.messages._idl import parse_recorded_idl
-from coframe.messages._parser import MessageStructure, Rules, parse_structure, shortened
+from coframe.messages._parser import MessageStructure, Rules, parse_structure, truncate
 from coframe.messages.compounds import NUMBER_OF_PARTS, event, member_messages
 from coframe.messages.definition import NamespacedType
 from coframe.messages.limits import MAX_DEFINITION, MAX_TYPES
@@ -50,7 +50,7 @@ class Schema:
         self._by_last_name: dict[str, list[str]] = {}
         for full in structures:
             self._by_last_name.setdefault(full.rpartition("/")[2], []).append(full)
-        package, kind, own = _parts_of(name)
+        package, kind, own = _split_name(name)
         found = self.find(NamespacedType((package, kind), own), "")
         if found is None:
             names = ", ".join(list(structures)[:10]) or "no message"
@@ -65,7 +65,7 @@ class Schema:
             home: The package of the message with the field.
         """
         package, kind = type_.namespaces
-        full = _full(package or home, kind, type_.name)
+        full = _full_name(package or home, kind, type_.name)
         if full in self.structures:
             return full
         names = self._by_last_name.get(type_.name, [])
@@ -74,7 +74,7 @@ class Schema:
             return of_package[0] if of_package else None
         return names[0] if len(names) == 1 else None
 
-    def line_of(self, owner: str, field: str) -> int | None:
+    def find_line(self, owner: str, field: str) -> int | None:
         """Return the number of the line with a field of a message; None if it is not found."""
         title = re.compile(rf"(?:\s*\w+:.*|.*struct\s+){re.escape(owner.rpartition('/')[2])}_?\b")
         line = re.compile(rf"[^#]*[\s,]{re.escape(field)}_?\s*(?:[;,\[#].*)?")
@@ -108,10 +108,10 @@ def ros_name(name: str) -> str:
     found = match.groupdict()
     if not found["package"]:
         return str(found["name"])
-    return _full(found["package"], found["kind"] or "msg", found.get("dds") or found["name"])
+    return _full_name(found["package"], found["kind"] or "msg", found.get("dds") or found["name"])
 
 
-def _full(package: str, kind: str, name: str) -> str:
+def _full_name(package: str, kind: str, name: str) -> str:
     return f"{package}/{kind}/{name}" if package else name
 
 
@@ -127,7 +127,7 @@ def parse_schema(text: bytes, name: str, format_: str) -> Schema:
         InterfaceError: The text is not valid, too large, or does not define the message.
     """
     if len(text) > MAX_DEFINITION:
-        raise InterfaceError(f"a definition of {len(text)} bytes, more than {MAX_DEFINITION}")
+        raise InterfaceError(f"the definition has {len(text)} bytes; the maximum is {MAX_DEFINITION}")
     decoded = text.decode("utf-8-sig", "replace")
     blocks = _split(decoded)
     if format_ in IDL_FORMATS or any(block.kind == "IDL" for block in blocks):
@@ -146,7 +146,7 @@ def _split(text: str) -> list[_Block]:
             continue
         if title := _TITLE.fullmatch(line):
             if len(blocks) > MAX_TYPES:
-                raise InterfaceError(f"more than {MAX_TYPES} messages", line=number)
+                raise InterfaceError(f"the definition has more than {MAX_TYPES} messages", line=number)
             blocks.append(_Block(title[1], title[2], number, []))
         else:
             blocks[-1].lines.append((number, line))
@@ -158,10 +158,10 @@ def _idl_structures(blocks: list[_Block]) -> dict[str, MessageStructure]:
         (block.lines[0][0], "\n".join(line for _, line in block.lines)) for block in reversed(blocks) if block.lines
     ]
     found = parse_recorded_idl(texts)
-    return {"/".join(_with_kind(path)): structure for path, structure in found.items()}
+    return {"/".join(_add_kind(path)): structure for path, structure in found.items()}
 
 
-def _with_kind(path: tuple[str, ...]) -> tuple[str, ...]:
+def _add_kind(path: tuple[str, ...]) -> tuple[str, ...]:
     return (path[0], "msg", path[1]) if len(path) == 2 else path
 
 
@@ -183,7 +183,7 @@ def _structures(blocks: list[_Block], name: str, *, is_ros1: bool) -> dict[str, 
 
 def _parse_block(lines: _Lines, name: str, rules: Rules) -> dict[str, MessageStructure]:
     """Return the messages of one file: one of a message, several of a service or an action."""
-    package, kind, own = _parts_of(name)
+    package, kind, own = _split_name(name)
     pieces: list[_Lines] = [[]]
     for number, line in lines:
         if _PART.fullmatch(line):
@@ -203,7 +203,7 @@ def _parse_block(lines: _Lines, name: str, rules: Rules) -> dict[str, MessageStr
     return {f"{package}/{kind}/{member}": structure for member, structure in members.items()}
 
 
-def _parts_of(name: str) -> tuple[str, str, str]:
+def _split_name(name: str) -> tuple[str, str, str]:
     """Return package, kind and last part of a name; the package can be missing."""
     namespace, _, own = name.rpartition("/")
     package, _, kind = namespace.partition("/")
@@ -216,15 +216,15 @@ def _find_named(name: str, _package: str) -> NamespacedType:
         return NamespacedType(("builtin_interfaces", "msg"), _TIMES[name])
     match = _TYPE.fullmatch(name)
     if match is None:
-        raise ValueError(f"no type {shortened(name)!r}")
+        raise ValueError(f"no type {truncate(name)!r}")
     return NamespacedType((match["package"] or "", match["kind"] or "msg"), match["name"])
 
 
-def _named_in_ros1(name: str, package: str) -> NamespacedType:
+def _resolve_ros1_name(name: str, package: str) -> NamespacedType:
     # ROS 1 has one Header for all packages.
     return NamespacedType(("std_msgs", "msg"), "Header") if name == "Header" else _find_named(name, package)
 
 
 _TEXT = "letters, digits and underscores"
-_ROS1 = Rules(_MEMBER, _TEXT, _MEMBER, _TEXT, _named_in_ros1)
+_ROS1 = Rules(_MEMBER, _TEXT, _MEMBER, _TEXT, _resolve_ros1_name)
 _ROS2 = Rules(_MEMBER, _TEXT, _MEMBER, _TEXT, _find_named)

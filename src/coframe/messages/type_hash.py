@@ -114,7 +114,7 @@ def _description(interface: Any) -> _Description:
     if issubclass(interface, Message):
         return _describe_type(name, _message_fields(interface))
     if issubclass(interface, Service):
-        return _described_service(name)
+        return _describe_service(name)
     return _describe_type(
         name,
         {
@@ -135,7 +135,7 @@ def _message_fields(message: type[Message]) -> dict[str, AbstractType]:
     return fields
 
 
-def _described_service(name: str) -> _Description:
+def _describe_service(name: str) -> _Description:
     request, response = _named(f"{name}_Request"), _named(f"{name}_Response")
     info = _describe_type(_EVENT_INFO, dict(_EVENT_INFO_FIELDS))
     fields = {

@@ -67,14 +67,14 @@ class JointStatePublisher(Node):
         self.lock = threading.Lock()
         self.robot: Robot | None = None
         self.states: JointStates | None = None
-        self._choices: dict[str, Any] = {
+        self._chosen_parameters: dict[str, Any] = {
             "zeros": {joint: self._number(f"zeros.{joint}") for joint in self.get_parameters_by_prefix("zeros")},
             "dependent": self._dependent_joints(),
-            "use_mimic_tags": self._switch("use_mimic_tags"),
-            "use_smallest_limits": self._switch("use_smallest_joint_limits"),
-            "positions": self._switch("publish_default_positions"),
-            "velocities": self._switch("publish_default_velocities"),
-            "efforts": self._switch("publish_default_efforts"),
+            "use_mimic_tags": self._read_switch("use_mimic_tags"),
+            "use_smallest_limits": self._read_switch("use_smallest_joint_limits"),
+            "positions": self._read_switch("publish_default_positions"),
+            "velocities": self._read_switch("publish_default_velocities"),
+            "efforts": self._read_switch("publish_default_efforts"),
         }
         self._delta = self._number("delta")
         rate = self._number("rate")
@@ -96,7 +96,7 @@ class JointStatePublisher(Node):
         Raises:
             RobotDescriptionError: Mimic joints form a cycle or refer to a joint that does not exist.
         """
-        states = JointStates(robot, **self._choices)
+        states = JointStates(robot, **self._chosen_parameters)
         with self.lock:
             self.robot, self.states = robot, states
 
@@ -166,7 +166,7 @@ class JointStatePublisher(Node):
             raise ValueError(f"The parameter '{name}' must be a number, but is {value!r}.")  # noqa: TRY004
         return float(value)
 
-    def _switch(self, name: str) -> bool:
+    def _read_switch(self, name: str) -> bool:
         value = self.get_parameter(name).value
         if not isinstance(value, bool):
             raise ValueError(f"The parameter '{name}' must be true or false, but is {value!r}.")  # noqa: TRY004

@@ -52,8 +52,8 @@ class RobotStatePublisher(Node):
         frequency = self.declare_parameter("publish_frequency", 20.0, hertz).value
         self._prefix = self.declare_parameter("frame_prefix", "").value
         # An extension of upstream: links without prefix, such as "map,world".
-        self._kept = set(shared_frames(self.declare_parameter("frame_prefix_keep", "").value))
-        self._advise()
+        self._shared_frames = set(shared_frames(self.declare_parameter("frame_prefix_keep", "").value))
+        self._warn_about_prefix()
         ignore_stamps = self.declare_parameter("ignore_timestamp", False).value
         # The first name is Lyrical's, the second one Kilted's.
         from_topic = self.declare_parameter("use_robot_description_topic", False).value
@@ -68,7 +68,7 @@ class RobotStatePublisher(Node):
             self.create_subscription(String, "robot_description", self._on_description, _LATCHED)
         else:
             self._description = self.create_publisher(String, "robot_description", _LATCHED)
-            self._use(self._first_robot(description, file))
+            self._publish_robot(self._first_robot(description, file))
         self.add_on_set_parameters_callback(self._set_parameters)
         overrides = QoSOverridingOptions.with_default_policies()
         self.create_subscription(
@@ -93,11 +93,11 @@ class RobotStatePublisher(Node):
     def _on_description(self, message: String) -> None:
         """Use the description on the topic, for which the parameter `use_robot_description_topic` waits."""
         try:
-            self._use(self._new_robot(message.data))
+            self._publish_robot(self._new_robot(message.data))
         except RobotDescriptionError as error:
             self.get_logger().error(one_line(f"Invalid robot_description on the topic, ignored: {error}"))
 
-    def _use(self, robot: Robot) -> None:
+    def _publish_robot(self, robot: Robot) -> None:
         """Publish the description of a robot and its fixed transforms, and from now on those of its joints."""
         states = StatePublisher(robot, self._frequency, ignore_stamps=self._ignore_stamps)
         self._states = states
@@ -149,13 +149,13 @@ class RobotStatePublisher(Node):
         return message
 
     def _frame(self, link: str) -> str:
-        return link if link in self._kept else f"{self._prefix}{link}"
+        return link if link in self._shared_frames else f"{self._prefix}{link}"
 
-    def _advise(self) -> None:
+    def _warn_about_prefix(self) -> None:
         if self._prefix.startswith("/"):
             self.get_logger().warning(
-                f"The frame_prefix {self._prefix!r} begins with a slash. tf2 frame names do not, so the slash is "
-                f"removed."
+                f"The frame_prefix {self._prefix!r} begins with a slash, which is removed, because frame names of "
+                f"tf2 have none."
             )
         elif advice := prefix_advice(self._prefix):
             self.get_logger().warning(f"The frame_prefix is used as given: {advice}")
@@ -169,15 +169,15 @@ class RobotStatePublisher(Node):
             return SetParametersResult(successful=False, reason=str(error))
         if "frame_prefix" in given:
             self._prefix = given["frame_prefix"]
-            self._advise()
+            self._warn_about_prefix()
         if "frame_prefix_keep" in given:
-            self._kept = set(shared_frames(given["frame_prefix_keep"]))
+            self._shared_frames = set(shared_frames(given["frame_prefix_keep"]))
         self._frequency = given.get("publish_frequency", self._frequency)
         self._ignore_stamps = given.get("ignore_timestamp", self._ignore_stamps)
         if self._states is not None:
             self._states.frequency, self._states.ignore_stamps = self._frequency, self._ignore_stamps
         if robot is not None:
-            self._use(robot)
+            self._publish_robot(robot)
         return SetParametersResult(successful=True)
 
     def _new_robot(self, description: str) -> Robot:

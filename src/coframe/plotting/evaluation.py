@@ -138,7 +138,7 @@ def _pose_curve(expression: PoseExpression, recording: Recording) -> Series:
 def _field_curve(
     expression: FieldExpression, recording: Recording, report: Callable[[str, int, int], object]
 ) -> Series:
-    topic = _existing_topic(recording, expression.topic)
+    topic = _check_topic(recording, expression.topic)
     if (poses := _topic_poses(recording, topic, expression)) is not None:
         return poses
     total = recording.topics[topic].messages
@@ -185,7 +185,7 @@ def _timing_curve(
 ) -> Series:
     delays = expression.quantity == "delay"
     if expression.edge is None:
-        topic = _existing_topic(recording, str(expression.topic))
+        topic = _check_topic(recording, str(expression.topic))
         stamps, received = recording.stamps(topic), recording.received(topic)
         if delays and np.array_equal(stamps, recording.to_ros_time(received)):
             raise PlotError(
@@ -210,7 +210,7 @@ def _delays(
 ) -> NDArray[np.float64]:
     """Return the receive times minus the stamps in seconds, on the clock of the stamps."""
     if not stamps.size:
-        raise PlotError(f"{expression.text} has no values: there are no messages")
+        raise PlotError(f"{expression.text} has no values: the topic has no messages")
     simulated = recording.to_ros_time(received)
     clock = clock_of(
         float(np.median(received - stamps)),
@@ -219,7 +219,7 @@ def _delays(
     if clock == "other":
         raise PlotError(
             f"{expression.text}: the stamps and the receive times are on different clocks, so there is no delay",
-            hint="In a recording of a simulation this needs the topic /clock.",
+            hint="A recording of a simulation must contain the topic /clock.",
         )
     return np.asarray(((simulated if clock == "simulated" else received) - stamps) / SECOND)
 
@@ -290,7 +290,7 @@ def _batches(recording: Recording, topics: set[str]) -> Iterator[tuple[Channel, 
         yield channel, np.array(times, dtype=np.int64), Slices.join(messages)
 
 
-def _existing_topic(recording: Recording, name: str) -> str:
+def _check_topic(recording: Recording, name: str) -> str:
     if name in recording.topics:
         return name
     names = list(recording.topics)

@@ -53,7 +53,7 @@ def field_value(message: Any, expression: FieldExpression, type_: str) -> float:
         raise PlotError(f"{expression.text}: the messages have the type {type_}, whose definition is unknown")
     value, written = message, expression.topic
     for step in expression.path:
-        value = _step(value, step, written, expression)
+        value = _select_step(value, step, written, expression)
         written += f"[{step}]" if isinstance(step, int) else f".{step}"
     if isinstance(value, bool | int | float | np.number | np.bool_):
         return float(value)
@@ -66,7 +66,7 @@ def field_value(message: Any, expression: FieldExpression, type_: str) -> float:
     raise PlotError(f"{expression.text} is a sequence, not a number", hint=f"Choose an element, such as {written}[0].")
 
 
-def _step(value: Any, step: str | int, written: str, expression: FieldExpression) -> Any:
+def _select_step(value: Any, step: str | int, written: str, expression: FieldExpression) -> Any:
     if isinstance(step, int):
         if isinstance(value, str) or not hasattr(value, "__getitem__") or isinstance(value, dict):
             raise PlotError(f"{expression.text}: {written} is not a sequence, so it has no element {step}")

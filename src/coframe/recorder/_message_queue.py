@@ -67,7 +67,7 @@ class MessageQueue:
         self.size = 0
         self.dropped: Counter[str] = Counter()
 
-    def put(self, message: ReceivedMessage) -> None:
+    def add_message(self, message: ReceivedMessage) -> None:
         """Add a message without waiting."""
         with self._changed:
             (self._latched if message.source.latched else self._messages).append(message)

@@ -26,7 +26,7 @@ class PlaybackClock:
 
     def __init__(self, start: int, rate: float, *, paused: bool) -> None:
         self._changed = threading.Condition()
-        self._base = start
+        self._base_time = start
         self._since: int | None = None
         self._rate = rate
         self._paused = paused
@@ -63,20 +63,20 @@ class PlaybackClock:
     def jump(self, to: int) -> None:
         """Set the recorded time and start the clock."""
         with self._changed:
-            self._base, self._since = to, time.monotonic_ns()
+            self._base_time, self._since = to, time.monotonic_ns()
             self._changed.notify_all()
 
     def set_rate(self, rate: float) -> None:
         """Set the rate: recorded seconds per real second."""
         with self._changed:
-            self._anchor()
+            self._restart_from_now()
             self._rate = rate
             self._changed.notify_all()
 
     def set_paused(self, paused: bool) -> None:
         """Pause the clock, or resume it."""
         with self._changed:
-            self._anchor()
+            self._restart_from_now()
             self._paused = paused
             self._steps = 0
             self._changed.notify_all()
@@ -110,7 +110,7 @@ class PlaybackClock:
                 if self._paused:
                     if self._steps:
                         self._steps -= 1
-                        self._base = max(self._base, moment)
+                        self._base_time = max(self._base_time, moment)
                         return True
                     self._changed.wait()
                     continue
@@ -127,9 +127,9 @@ class PlaybackClock:
 
     def _now(self) -> int:
         if self._paused or self._since is None:
-            return self._base
-        return self._base + int((time.monotonic_ns() - self._since) * self._rate)
+            return self._base_time
+        return self._base_time + int((time.monotonic_ns() - self._since) * self._rate)
 
-    def _anchor(self) -> None:
-        self._base = self._now()
+    def _restart_from_now(self) -> None:
+        self._base_time = self._now()
         self._since = None if self._since is None else time.monotonic_ns()

@@ -72,7 +72,7 @@ class Player:
         self._loop = loop
         self._start = start
         self._end = recording.received_end if end is None else min(end, recording.received_end)
-        self._sought: int | None = None  # where `seek` continues
+        self._seek_target: int | None = None  # where `seek` continues
         self._started = threading.Event()
         self._clock_rate = clock
         self._delay = delay
@@ -143,7 +143,7 @@ class Player:
 
     def seek(self, moment: int) -> None:
         """Continue at a receive time in nanoseconds; times outside the recording are limited to it."""
-        self._sought = min(max(moment, self.recording.received_start), self._end)
+        self._seek_target = min(max(moment, self.recording.received_start), self._end)
         self.clock.interrupt()
 
     def step(self, number: int = 1) -> None:
@@ -156,7 +156,7 @@ class Player:
         Raises:
             ValueError: The rate is not above 0 and at most `MAX_RATE`.
         """
-        self.clock.set_rate(_checked_rate(rate))
+        self.clock.set_rate(_check_rate(rate))
 
     def close(self) -> None:
         """Stop the replay and leave the graph. A second call has no effect."""
@@ -198,7 +198,7 @@ class Player:
             complete = self._play_from(start)
             if self.clock.stopped:
                 return
-            sought, self._sought = self._sought, None
+            sought, self._seek_target = self._seek_target, None
             if sought is None and complete and not self._loop:
                 return
             start = self._start if sought is None else sought
@@ -224,7 +224,7 @@ class Player:
             self.clock.sleep(max(due - time.monotonic(), 0.0))
 
 
-def _checked_rate(rate: float) -> float:
+def _check_rate(rate: float) -> float:
     if not 0.0 < rate <= MAX_RATE:
         raise ValueError(f"the rate of a replay must be above 0 and at most {MAX_RATE:g}, not {rate:g}")
     return rate
@@ -288,7 +288,7 @@ def play(
         >>> with coframe.play("run", rate=2.0) as player:                              # doctest: +SKIP
         ...     player.wait()
     """
-    _checked_rate(rate)
+    _check_rate(rate)
     if clock is not None and not 0.0 < clock <= _MAX_CLOCK_RATE:
         raise ValueError(f"the rate of /clock must be above 0 Hz and at most {_MAX_CLOCK_RATE:g} Hz, not {clock:g}")
     names = renaming(prefix, keep)
@@ -297,7 +297,7 @@ def play(
     )
     recording = open_merged([path] if isinstance(path, str | os.PathLike | Source) else path)
     try:
-        chosen = _chosen_channels(recording, chooses)
+        chosen = _choose_channels(recording, chooses)
         start = _start(recording, duration_ns(start_offset))
         if duration is not None:
             end = start + duration_ns(duration) if end is None else min(end, start + duration_ns(duration))
@@ -321,7 +321,7 @@ def play(
         raise
 
 
-def _chosen_channels(recording: Recording | MergedRecordings, chooses: TopicFilter) -> set[str]:
+def _choose_channels(recording: Recording | MergedRecordings, chooses: TopicFilter) -> set[str]:
     available = set(recording.topics)
     if missing := chooses.missing(map(absolute, available)):
         raise RecordingError(

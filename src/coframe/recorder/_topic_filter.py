@@ -52,12 +52,12 @@ class TopicFilter:
         exclude_services: Iterable[str] = (),
     ) -> None:
         self._names = None if topics is None else set(map(absolute, topics))
-        self._regex, self._exclude = _compiled(regex), _compiled(exclude)
+        self._regex, self._exclude_regex = _compile_regex(regex), _compile_regex(exclude)
         self._types = set(types)
         self._all_services = services is True
         self._events = set() if isinstance(services, bool) else _events(services)
         self._hidden = hidden
-        self._excluded = {*map(absolute, exclude_topics), *_events(exclude_services)}
+        self._excluded_topics = {*map(absolute, exclude_topics), *_events(exclude_services)}
         self._excluded_types = set(exclude_types)
         self._is_selective = self._names is not None or bool(
             self._regex or self._types or self._events or self._all_services
@@ -65,9 +65,9 @@ class TopicFilter:
 
     def __call__(self, topic: str, ros_type: str = "") -> bool:
         """Return whether a topic is selected."""
-        if topic in self._excluded or ros_type in self._excluded_types:
+        if topic in self._excluded_topics or ros_type in self._excluded_types:
             return False
-        if self._exclude is not None and self._exclude.fullmatch(topic):
+        if self._exclude_regex is not None and self._exclude_regex.fullmatch(topic):
             return False
         if not self._is_selective:
             return self._hidden or _HIDDEN not in topic
@@ -89,7 +89,7 @@ def _events(services: Iterable[str]) -> set[str]:
     return {f"{absolute(name)}{_SERVICE_EVENT}" for name in services}
 
 
-def _compiled(regex: str | None) -> re.Pattern[str] | None:
+def _compile_regex(regex: str | None) -> re.Pattern[str] | None:
     try:
         return None if regex is None else re.compile(regex)
     except re.error as error:

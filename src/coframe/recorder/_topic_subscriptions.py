@@ -28,7 +28,7 @@ _MAX_SUBSCRIPTIONS = 4000  # a typical graph has hundreds of topics
 MAX_PUBLISHERS = 100_000  # limit of the publishers whose QoS is stored, and of topics that cannot be recorded
 
 
-class _Offer(NamedTuple):
+class _OfferedTopic(NamedTuple):
     """A topic with the QoS that a group of its publishers offers; there is one subscription for each."""
 
     topic: str
@@ -59,10 +59,10 @@ class TopicSubscriptions:
         self._node = node
         self._filter = topic_filter
         self._event = event
-        self._offers: dict[int, _Offer] = {}  # by publisher, including those that have left
-        self._readers: dict[_Offer, Subscription] = {}
-        self._topic_offers: dict[tuple[str, str], list[_Offer]] = {}  # by topic and type
-        self._unrecordable: set[_Offer] = set()
+        self._offers: dict[int, _OfferedTopic] = {}  # by publisher, including those that have left
+        self._readers: dict[_OfferedTopic, Subscription] = {}
+        self._topic_offers: dict[tuple[str, str], list[_OfferedTopic]] = {}  # by topic and type
+        self._unrecordable: set[_OfferedTopic] = set()
 
     def refresh(self) -> list[tuple[str, str, list[QoS]]]:
         """Subscribe to new topics. Return the name, the type and the offered QoS profiles of each new topic."""
@@ -77,7 +77,7 @@ class TopicSubscriptions:
         """Return the subscribed topics."""
         return {topic for topic, _ in list(self._topic_offers)}
 
-    def unrecordable(self) -> set[str]:
+    def unrecordable_topics(self) -> set[str]:
         """Return the topics that cannot be recorded: their type is not a ROS type, or there are too many topics."""
         return {offer.topic for offer in list(self._unrecordable)}
 
@@ -101,7 +101,7 @@ class TopicSubscriptions:
         self, topic: str, handle: int, publisher: EndpointInfo, new: dict[tuple[str, str], list[QoS]]
     ) -> None:
         key = (topic, publisher.ros_type)
-        offer = _Offer(*key, publisher.qos.reliable, publisher.qos.transient_local)
+        offer = _OfferedTopic(*key, publisher.qos.reliable, publisher.qos.transient_local)
         self._offers[handle] = offer
         while len(self._offers) > MAX_PUBLISHERS:  # Those that exist are added again by each refresh.
             del self._offers[next(iter(self._offers))]
@@ -113,7 +113,7 @@ class TopicSubscriptions:
         if offer not in offers:
             offers.append(offer)
 
-    def _subscribe(self, offer: _Offer) -> bool:
+    def _subscribe(self, offer: _OfferedTopic) -> bool:
         if len(self._readers) < _MAX_SUBSCRIPTIONS and "/" in offer.type:  # all ROS types contain a slash
             qos = QoS(depth=_DEPTH, reliable=offer.reliable, transient_local=offer.transient_local)
             with suppress(WireError):
@@ -125,7 +125,7 @@ class TopicSubscriptions:
             self._unrecordable.add(offer)
         return False
 
-    def _accepts(self, offer: _Offer, publisher: int) -> bool:
+    def _accepts(self, offer: _OfferedTopic, publisher: int) -> bool:
         offers = self._topic_offers[offer.topic, offer.type]
         if len(offers) == 1:
             return True

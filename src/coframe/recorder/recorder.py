@@ -116,7 +116,7 @@ class Recorder:
             waiting=self._queue.size,
             dropped=dict(self._queue.dropped),
             missing=self._filter.missing(subscribed),
-            unrecordable=sorted(self._subscriptions.unrecordable()),
+            unrecordable=sorted(self._subscriptions.unrecordable_topics()),
             not_renamed=[] if self._frames is None else list(self._frames.not_renamed),
         )
 
@@ -207,7 +207,7 @@ class Recorder:
                 self._on_topic(topic, ros_type)
         for message in self._subscriptions.take():
             if not self._paused:
-                self._queue.put(message)
+                self._queue.add_message(message)
 
     def _write(self) -> None:
         due = time.monotonic() + _FLUSH_PERIOD

@@ -13,7 +13,7 @@ from xml.parsers import expat
 
 from coframe._files.other_files import BEGINNING, what_else
 from coframe.errors import RobotDescriptionError
-from coframe.robots._well_formed import repaired
+from coframe.robots._well_formed import repair_xml
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -42,7 +42,7 @@ _ENCODINGS = {
         "utf-8",
     ),
 }
-_FALLBACK = "iso8859-1"  # every byte is a character
+_FALLBACK_ENCODING = "iso8859-1"  # every byte is a character
 # float() would also accept nan, 1_000 and non-ASCII digits.
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 
@@ -71,7 +71,7 @@ class Element:
         found = self.all(tag)
         first = next(found, None)
         if (second := next(found, None)) is not None:
-            second.warn(f"there is a second <{tag}> in one <{self.tag}>; the first one is used")
+            second.warn(f"<{self.tag}> contains a second <{tag}>; the first one is used")
         return first
 
     def required_child(self, tag: str) -> Element:
@@ -202,16 +202,16 @@ def read(data: str | bytes) -> Document:
             500 levels deep.
     """
     if len(data) > MAX_BYTES:
-        raise RobotDescriptionError(f"the robot description has {len(data)} bytes. The limit is {MAX_BYTES} bytes")
+        raise RobotDescriptionError(f"the robot description has {len(data)} bytes; the maximum is {MAX_BYTES}")
     warnings: list[str] = []
     text = data if isinstance(data, str) else _decoded(data, warnings)
     try:
         return Document(_parse(text, warnings), text, warnings)
     except expat.ExpatError as error:
         reason, line = expat.errors.messages[error.code], error.lineno
-    repair = repaired(text)
+    repair = repair_xml(text)
     if repair is not None:
-        warnings.append(f"line {line}: not well-formed XML: {reason}. It was repaired")
+        warnings.append(f"line {line}: not well-formed XML: {reason}. The document was repair_xml")
         with contextlib.suppress(expat.ExpatError):
             return Document(_parse(repair, warnings), repair, warnings)
     beginning = data[:BEGINNING].encode() if isinstance(data, str) else data[:BEGINNING]
@@ -226,8 +226,10 @@ def _decoded(data: bytes, warnings: list[str]) -> str:
     try:
         text = data.decode(encoding)
     except UnicodeError as error:
-        warnings.append(f"the text cannot be decoded: {error}. It is read as {_FALLBACK}; save it as UTF-8")
-        text = data.decode(_FALLBACK)
+        warnings.append(
+            f"the text cannot be decoded: {error}. The text is read as {_FALLBACK_ENCODING}; save it as UTF-8"
+        )
+        text = data.decode(_FALLBACK_ENCODING)
     declaration = _DECLARATION.match(text)
     if declaration is None or declaration[2].lower() in {"utf-8", "utf8"}:
         return text

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from coframe.quaternion import Array
     from coframe.robots.parts import Joint
 
-__all__ = ["Positions", "by_joint", "groups_of"]
+__all__ = ["Positions", "by_joint", "group_messages"]
 
 Positions: TypeAlias = "Mapping[str, ArrayLike] | ArrayLike | Any"
 
@@ -55,7 +55,7 @@ def is_joint_state(value: Any) -> bool:
     return hasattr(value, "name") and hasattr(value, "position") and not isinstance(value, Mapping)
 
 
-def groups_of(
+def group_messages(
     messages: Iterable[Any], joints: Mapping[str, Joint]
 ) -> list[tuple[np.ndarray[Any, np.dtype[np.int64]], dict[str, Array]]]:
     """Return the stamps (N,) and the positions (N,) by joint of JointState messages that name the same joints.
@@ -71,7 +71,7 @@ def groups_of(
         stamps.setdefault(names, []).append(stamp_ns(message.header.stamp))
         rows.setdefault(names, []).append(list(found.values()))
     if not rows:
-        raise ValueError("there is no JointState message")
+        raise ValueError("the list contains no JointState message")
     return [
         (np.array(stamps[names], dtype=np.int64), dict(zip(names, np.array(rows[names]).T, strict=True)))
         for names in rows
@@ -84,9 +84,11 @@ def _of_message(message: Any, joints: Mapping[str, Joint]) -> dict[str, float]:
         raise ValueError(
             f"the JointState has {len(names)} names and {len(values)} positions: both must have one entry per joint"
         )
-    found = {name: float(value) for name, value in zip(names, values, strict=True) if _moves(joints.get(name))}
+    found = {
+        name: float(value) for name, value in zip(names, values, strict=True) if _has_one_position(joints.get(name))
+    }
     if not found:
-        known = ", ".join(name for name, joint in joints.items() if _moves(joint)) or "none"
+        known = ", ".join(name for name, joint in joints.items() if _has_one_position(joint)) or "none"
         raise ValueError(
             f"the JointState has no position of the robot: it contains {', '.join(names) or 'nothing'}. Known joints: "
             f"{known}."
@@ -94,5 +96,5 @@ def _of_message(message: Any, joints: Mapping[str, Joint]) -> dict[str, float]:
     return found
 
 
-def _moves(joint: Joint | None) -> bool:
+def _has_one_position(joint: Joint | None) -> bool:
     return joint is not None and joint.size == 1

@@ -29,22 +29,22 @@ _SEARCH_HINT = "coframe searches the folders of COFRAME_PACKAGE_PATH."
 class Packages:
     """Finds packages by name.
 
-    It searches, in this order: the package that contains `near` and its siblings, `folders`, the folders in
+    It searches, in this order: the package that contains `description_path` and its siblings, `folders`, the folders in
     COFRAME_PACKAGE_PATH, the installations in AMENT_PREFIX_PATH, and the folders in ROS_PACKAGE_PATH. A folder can be a
     package (it has a ``package.xml``), contain packages in subfolders, or contain folders with the names of packages.
 
     Args:
-        near: The file of a robot description, or its folder.
+        description_path: The file of a robot description, or its folder.
         folders: Folders to search before those of the environment.
     """
 
     def __init__(
-        self, near: str | os.PathLike[str] | None = None, folders: Iterable[str | os.PathLike[str]] = ()
+        self, description_path: str | os.PathLike[str] | None = None, folders: Iterable[str | os.PathLike[str]] = ()
     ) -> None:
-        self.near = None if near is None else resolved(near)
+        self.description_path = None if description_path is None else resolved(description_path)
         self.folders = [Path(folder) for folder in folders]
         self._found: dict[str, Path] = {}
-        self._crawled: dict[tuple[Path, int], dict[str, Path]] = {}
+        self._crawled_packages: dict[tuple[Path, int], dict[str, Path]] = {}
 
     def find(self, name: str) -> Path:
         """Return the folder of a package, with all symbolic links resolved.
@@ -65,22 +65,22 @@ class Packages:
     def resolve(self, url: str) -> Path:
         """Return the file of a URL ``package://NAME/PATH`` or a relative path.
 
-        A relative path is resolved against the folder of `near`. It must point to a file in the package that contains
-        this folder, or below the folder if there is no such package.
+        A relative path is resolved against the folder of `description_path`. It must point to a file in the package
+        that contains this folder, or below the folder if there is no such package.
 
         Raises:
             PackageError: The package or the file does not exist, or the file is outside the package.
         """
         scheme, separator, rest = url.partition("://")
         if not separator:
-            return self._inside(url, *self._surrounding_packages(url))
+            return self._check_inside(url, *self._surrounding_packages(url))
         if scheme != "package":
             raise PackageError(f"{url!r} is not a package URL", hint=f"Use package://PACKAGE/PATH. {_SEARCH_HINT}")
         name, _, path = unquote(rest).partition("/")
         root = self.find(name)
-        return self._inside(url, root, root / path)
+        return self._check_inside(url, root, root / path)
 
-    def _inside(self, url: str, root: Path, path: Path) -> Path:
+    def _check_inside(self, url: str, root: Path, path: Path) -> Path:
         try:
             real = path.resolve()
             if not (real.is_relative_to(root) or real.is_relative_to(source_of(root))):
@@ -100,12 +100,12 @@ class Packages:
         return real
 
     def _surrounding_packages(self, url: str) -> tuple[Path, Path]:
-        if self.near is None:
+        if self.description_path is None:
             raise PackageError(
                 f"{url!r} is relative, but the robot description has no file",
                 hint=f"Use package://PACKAGE/PATH. {_SEARCH_HINT}",
             )
-        folder = self.near if self.near.is_dir() else self.near.parent
+        folder = self.description_path if self.description_path.is_dir() else self.description_path.parent
         return package_around(folder) or folder, folder / unquote(url)
 
     def _search(self, name: str) -> Path:
@@ -134,12 +134,12 @@ class Packages:
 
     def _nearby_folders(self) -> list[Path]:
         """Return the package that contains the description, and the folder with its siblings."""
-        if self.near is None:
+        if self.description_path is None:
             return []
-        package = package_around(self.near)
+        package = package_around(self.description_path)
         return [] if package is None else [package, package.parent]
 
     def _packages_below(self, folder: Path, max_depth: int) -> dict[str, Path]:
-        if (folder, max_depth) not in self._crawled:
-            self._crawled[folder, max_depth] = by_name(list(crawl(folder, max_depth)))
-        return self._crawled[folder, max_depth]
+        if (folder, max_depth) not in self._crawled_packages:
+            self._crawled_packages[folder, max_depth] = by_name(list(crawl(folder, max_depth)))
+        return self._crawled_packages[folder, max_depth]

@@ -12,7 +12,7 @@ import numpy as np
 from coframe import quaternion
 from coframe._output.formatting import did_you_mean
 from coframe.buffer.buffer import Buffer
-from coframe.robots._given_positions import by_joint, groups_of, is_joint_state
+from coframe.robots._given_positions import by_joint, group_messages, is_joint_state
 from coframe.robots._kinematics import KinematicTree
 from coframe.transform.values import batch_of
 
@@ -114,7 +114,7 @@ class Robot:
             return found
         known, shape = self._given_positions(positions)
         if out is None and not shape:
-            return self._of_one(known, in_root=True)
+            return self._single_transforms(known, in_root=True)
         poses = np.empty((len(self.links), *shape, 7)) if out is None else _checked_rows(out, (len(self.links), *shape))
         poses[0] = _IDENTITY
         self._fill(poses[1:], known, shape, in_root=True, threads=threads)
@@ -141,7 +141,7 @@ class Robot:
             return found
         known, shape = self._given_positions(positions)
         if not shape:
-            return self._of_one(known, in_root=False)
+            return self._single_transforms(known, in_root=False)
         poses = np.empty((len(self.joints), *shape, 7))
         self._fill(poses, known, shape, in_root=False)
         joints = self.joints.values()
@@ -217,7 +217,7 @@ class Robot:
             limits = self.limits.get(name)
             if limits is None or self.joints[name].size != 1 or self.joints[name].type == "continuous":
                 continue
-            low, high = _bounds(limits)
+            low, high = _limit_bounds(limits)
             outside = np.minimum(value - low, 0.0) + np.maximum(value - high, 0.0)
             if outside.any():
                 found[name] = outside
@@ -247,7 +247,7 @@ class Robot:
             groups = [(np.asarray(stamps), self._given_positions(joint_states)[0])]
         else:
             messages = [joint_states] if is_joint_state(joint_states) else joint_states
-            groups = groups_of(messages, self.joints)
+            groups = group_messages(messages, self.joints)
         found = Buffer(None)
         authority = f"robot {self.name}".rstrip()
         moving = set()
@@ -319,7 +319,7 @@ class Robot:
         known, shape = self._given_positions(given)
         for name, value in known.items():
             if not np.isfinite(value).all() or (self.joints[name].size == 7 and not value[..., 3:].any(axis=-1).all()):
-                raise ValueError(_no_position(name))
+                raise ValueError(_position_error(name))
         moving = (joint for joint in self.joints.values() if joint.size)
         return {
             joint.name: np.broadcast_to(self._position(joint, known), (*shape, *_axes(joint))) for joint in moving
@@ -351,7 +351,7 @@ class Robot:
             raise ValueError(f"the position of {kind} joint {name!r} must have shape (..., {size}), not {array.shape}")
         return array
 
-    def _of_one(self, known: dict[str, Array], *, in_root: bool) -> dict[str, Transform]:
+    def _single_transforms(self, known: dict[str, Array], *, in_root: bool) -> dict[str, Transform]:
         found = self._kinematics.transforms({name: value.tolist() for name, value in known.items()}, in_root=in_root)
         if found is None:  # the shapes were already checked
             self.positions(known)
@@ -366,7 +366,7 @@ class Robot:
         columns = {name: np.broadcast_to(value, (*rows, *_axes(self.joints[name]))) for name, value in known.items()}
         bad = self._kinematics.poses(columns, rows[0], poses, in_root=in_root, threads=threads)
         if bad is not None:
-            raise ValueError(_no_position(bad))
+            raise ValueError(_position_error(bad))
 
     def _batch_axes(self, name: str, value: Array) -> tuple[int, ...]:
         return value.shape[: value.ndim - len(_axes(self.joints[name]))]
@@ -410,7 +410,7 @@ def _default_position(joint: Joint) -> float:
     return 0.0 if limits.lower <= 0.0 <= limits.upper else 0.5 * (limits.lower + limits.upper)
 
 
-def _bounds(limits: JointLimits) -> tuple[float, float]:
+def _limit_bounds(limits: JointLimits) -> tuple[float, float]:
     """Return the lower and the upper limit."""
     return -np.inf if limits.lower is None else limits.lower, np.inf if limits.upper is None else limits.upper
 
@@ -430,7 +430,7 @@ def _checked_rows(out: Array, shape: tuple[int, ...]) -> Array:
     return out
 
 
-def _no_position(joint: str) -> str:
+def _position_error(joint: str) -> str:
     return f"the position of joint {joint!r} is not finite, or its quaternion is zero"
 
 

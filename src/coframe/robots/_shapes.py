@@ -49,7 +49,7 @@ class Materials:
                     material = _material(element)
                     self.defined.setdefault(material.name, material)
 
-    def used_in(self, visual: Element) -> Material | None:
+    def material_of_visual(self, visual: Element) -> Material | None:
         """Return the material of a visual; None if it has none."""
         element = visual.one("material")
         if element is None:
@@ -83,7 +83,7 @@ def parse_link(name: str, element: Element, materials: Materials) -> Link:
 
     def visual(part: Element) -> Visual:
         pose, geometry = origin(part, name), _geometry(part)
-        return Visual(part.attributes.get("name", ""), pose, geometry, materials.used_in(part))
+        return Visual(part.attributes.get("name", ""), pose, geometry, materials.material_of_visual(part))
 
     def collision(part: Element) -> Collision:
         return Collision(part.attributes.get("name", ""), origin(part, name), _geometry(part))

@@ -13,10 +13,10 @@ if TYPE_CHECKING:
     from coframe.robots._document import Element
     from coframe.robots.parts import Joint
 
-__all__ = ["ordered", "without_faulty_mimics"]
+__all__ = ["order_joints", "remove_faulty_mimics"]
 
 
-def ordered(
+def order_joints(
     links: Iterable[str], joints: list[Joint], elements: Mapping[str, Element], root: Element
 ) -> dict[str, Joint]:
     """Return the joints by name, level by level from the root link.
@@ -73,7 +73,7 @@ def _fail_on_loop(joint: Joint, parent_joint: Mapping[str, Joint], elements: Map
     elements[joint.name].fail(f"the links form a loop: {names}", hint="URDF describes trees. Remove one of the joints.")
 
 
-def without_faulty_mimics(joints: list[Joint], elements: Mapping[str, Element]) -> list[Joint]:
+def remove_faulty_mimics(joints: list[Joint], elements: Mapping[str, Element]) -> list[Joint]:
     """Return the joints, without the mimic tags that cannot be followed, which cause warnings.
 
     A joint cannot mimic a joint that does not exist or is fixed, planar or floating, and joints cannot mimic each other
@@ -83,7 +83,7 @@ def without_faulty_mimics(joints: list[Joint], elements: Mapping[str, Element]) 
     faults = {joint.name: fault for joint in joints if (fault := _fault(joint, by_name))}
     leaders = {j.name: j.mimic.joint for j in joints if j.mimic is not None and j.name not in faults}
     for circle in _mimic_cycles(leaders):
-        faults |= dict.fromkeys(circle, f"joints mimic each other in a circle: {', '.join(circle[:10])}")
+        faults |= dict.fromkeys(circle, f"joints mimic each other in a loop: {', '.join(circle[:10])}")
     for name, fault in faults.items():
         elements[name].warn(f"{fault}; the <mimic> of joint {name!r} is ignored")
     return [dataclasses.replace(joint, mimic=None) if joint.name in faults else joint for joint in joints]

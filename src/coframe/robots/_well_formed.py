@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["repaired"]
+__all__ = ["repair_xml"]
 
-_REST = r"[\w:.\-\x80-\U0010ffff]"
-_NAME = rf"[A-Za-z_:\x80-\U0010ffff]{_REST}*"
+_NAME_CHARACTER = r"[\w:.\-\x80-\U0010ffff]"
+_NAME = rf"[A-Za-z_:\x80-\U0010ffff]{_NAME_CHARACTER}*"
 _ATTRIBUTE = re.compile(rf"""(\s*)({_NAME})(\s*)=(\s*)("[^"]*"|'[^']*')""", re.ASCII)
 _ATTRIBUTES = _ATTRIBUTE.pattern.replace("(", "(?:")
 # Each alternative can match in one way only, so that the time is linear.
-_PIECE = re.compile(
+_TOKEN = re.compile(
     rf"""(?P<nothing><!--.*?-->|<\?.*?\?>|<!(?!--|\[CDATA\[)[^>]*>)
     |(?P<data><!\[CDATA\[.*?\]\]>)
-    |<(?P<before>\s*)(?P<slash>/?)(?P<tag>{_NAME})(?!{_REST})
+    |<(?P<before>\s*)(?P<slash>/?)(?P<tag>{_NAME})(?!{_NAME_CHARACTER})
         (?P<attributes>(?:{_ATTRIBUTES})*)(?P<after>\s*)(?P<empty>/?)>
     |(?P<text>[^<]+)""",
     re.ASCII | re.DOTALL | re.VERBOSE,
@@ -28,7 +28,7 @@ _NOT_A_CHARACTER = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")
 _REFERENCE = re.compile(r"&(?:(amp|lt|gt|quot|apos);|#(\d{1,7});|#x([0-9a-fA-F]{1,6});)?")
 
 
-def repaired(text: str) -> str | None:
+def repair_xml(text: str) -> str | None:
     """Return the first <robot> of a document as well-formed XML with the same line numbers.
 
     The following are repaired: ``--`` in comments, ``&`` and ``<`` in values, attributes without a space between them,
@@ -54,7 +54,7 @@ def repaired(text: str) -> str | None:
 def _pieces(text: str) -> Iterator[re.Match[str] | None]:
     position = 0
     while position < len(text):
-        piece = _PIECE.match(text, position)
+        piece = _TOKEN.match(text, position)
         yield piece
         if piece is None:
             return

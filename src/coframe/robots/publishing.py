@@ -66,13 +66,13 @@ class StatePublisher:
         joints = self.robot.joints
         pairs = zip(names, positions, strict=True)
         given = {name: position for name, position in pairs if name in joints and joints[name].size == 1}
-        if not given or not self._due_joints(stamp, given):
+        if not given or not self._are_joints_due(stamp, given):
             return []
         self._published.update(dict.fromkeys(given, stamp))
         transforms = self.robot.joint_transforms(given)
         return [transforms[name] for name in joints if name in given or self._is_follower(name, given)]
 
-    def _due_joints(self, stamp: int, names: Collection[str]) -> bool:
+    def _are_joints_due(self, stamp: int, names: Collection[str]) -> bool:
         if self.ignore_stamps:
             return True
         if any(name not in self._published for name in names):

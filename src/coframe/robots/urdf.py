@@ -11,7 +11,7 @@ from coframe.errors import RobotDescriptionError
 from coframe.robots import _document
 from coframe.robots._robot import Robot
 from coframe.robots._shapes import Materials, origin, parse_link
-from coframe.robots._structure import ordered, without_faulty_mimics
+from coframe.robots._structure import order_joints, remove_faulty_mimics
 from coframe.robots.parts import Joint, JointLimits, JointType, Mimic
 
 if TYPE_CHECKING:
@@ -104,7 +104,7 @@ def _robot(read: _document.Document) -> Robot:
     return Robot(
         name=root.attributes.get("name", "").strip(),
         links=links,
-        joints=ordered(links, without_faulty_mimics(joints, elements), elements, root),
+        joints=order_joints(links, remove_faulty_mimics(joints, elements), elements, root),
         materials=materials.defined,
         text=read.text,
         warnings=tuple(dict.fromkeys(read.warnings)),
@@ -140,7 +140,7 @@ def _named_elements(root: Element, tag: str) -> dict[str, Element]:
         if name is None:
             element.fail(f"<{tag}> needs the attribute name")
         if name in found:
-            element.fail(f"there is a second {tag} {name!r}; the first one is on line {found[name].line}")
+            element.fail(f"the document has a second {tag} {name!r}; the first one is on line {found[name].line}")
         if not name.strip() or name != name.strip():
             element.warn(f"the name {name!r} of a {tag} is empty, or begins or ends with a space")
         found[name] = element

@@ -139,7 +139,7 @@ def destination(points: Any, out: Any, *, in_place: bool, float64: bool) -> Any:
     if not float64:
         return layout.destination(points, out, in_place=in_place)
     if in_place or out is not None:
-        raise ValueError("float64=True makes a new cloud: omit in_place and out")
+        raise ValueError("float64=True creates a new cloud: omit in_place and out")
     return as_float64(points)
 
 

@@ -120,7 +120,7 @@ def times_in(
     chosen = _most_plausible(readings, usual, period)
     if chosen is None:
         raise UnknownTimesError(
-            f"the field {name!r} has values from {known.min():.9g} to {known.max():.9g}, whose unit is not known; "
+            f"the field {name!r} has values from {known.min():.9g} to {known.max():.9g}, whose unit is unknown; "
             f"give the unit, for example {name}:ms"
         )
     return chosen
@@ -136,7 +136,7 @@ def implausible(times: PointTimes, period: int) -> str:
     if not period or _is_plausible(times, period):
         return ""
     return (
-        f"the field {times.field} read in {times.unit} makes a sweep of {duration(times.sweep)}, but there is a "
+        f"the field {times.field} read in {times.unit} results in a sweep of {duration(times.sweep)}, but there is a "
         f"message every {duration(period)}"
     )
 

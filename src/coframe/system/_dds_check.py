@@ -128,7 +128,7 @@ def _room(report: SystemReport) -> Iterator[SystemFinding]:
     if report.domain is not None and report.domain > _MAX_SAFE_DOMAIN and ports:
         yield SystemFinding(
             "warning",
-            f"The ports of domain {report.domain} begin at {7400 + 250 * report.domain}, and this system gives the "
+            f"The ports of domain {report.domain} begin at {7400 + 250 * report.domain}, and this system assigns the "
             f"ports {ports[0]} to {ports[1]} to any program.",
             f"Use a domain up to {_MAX_SAFE_DOMAIN}.",
         )
@@ -139,7 +139,7 @@ def _buffers(report: SystemReport) -> Iterator[SystemFinding]:
     if size is not None and size < _SMALL_BUFFER:
         yield SystemFinding(
             "warning",
-            f"The receive buffer of a socket has {size} bytes. Parts of large messages are lost and sent again.",
+            f"The receive buffer of a socket has {size} bytes. Fragments of large messages are lost and sent again.",
             "Linux, as root: sysctl -w net.core.rmem_max=2147483647",
         )
 
@@ -149,7 +149,7 @@ def _range(report: SystemReport) -> Iterator[SystemFinding]:
     if report.discovery == "OFF":
         yield SystemFinding(
             "warning",
-            "Discovery is off (ROS_AUTOMATIC_DISCOVERY_RANGE=OFF): no other process is found.",
+            "Discovery is disabled (ROS_AUTOMATIC_DISCOVERY_RANGE=OFF): no other process is found.",
             "Set ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST or SUBNET.",
         )
     elif report.discovery == "LOCALHOST":

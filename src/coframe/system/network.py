@@ -152,7 +152,7 @@ def multicast_problem(address: str) -> str:
         Why it did not arrive; empty if it did.
     """
     if ":" in address:
-        return "the test exists only for IPv4"
+        return "the test supports only IPv4"
     interface = socket.inet_aton(address)
     try:
         with (

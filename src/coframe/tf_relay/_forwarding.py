@@ -316,7 +316,7 @@ class Relay:
             statistics = WriterStatistics(*facts)
             node = self.participant.writer_node(statistics.writer)
             publisher = tf_publisher(
-                statistics, node, input_.topic, static=input_.static, present=statistics.writer in present
+                statistics, node, input_.topic, static=input_.static, is_present=statistics.writer in present
             )
             yield publisher, NotRelayed(*not_relayed)
 

@@ -101,7 +101,7 @@ def check_positions(poses: Transform) -> None:
     largest = float(np.abs(poses.translation).max(initial=0.0))
     if largest > MAX_POSITION:
         raise TrajectoryError(
-            f"A trajectory has a position of {largest:g} m; positions up to {MAX_POSITION:g} m can be compared",
+            f"A trajectory has a position of {largest:g} m; the maximum is {MAX_POSITION:g} m",
             hint="Check the unit and the rows of the files.",
         )
 

@@ -99,7 +99,7 @@ def _columns(line: str, found: dict[str, int], units: dict[str, str]) -> Columns
         return None
     lengths = {units[axis] for axis in "xyz"}
     if len(lengths) != 1 or (length := lengths.pop()) not in _LENGTHS:
-        raise ValueError(f"the unit of the positions is not known: {line[:200]!r}; known units: {', '.join(_LENGTHS)}")
+        raise ValueError(f"the unit of the positions is unknown: {line[:200]!r}; known units: {', '.join(_LENGTHS)}")
     is_divided = nanoseconds >= 0 and unit in {None, SECOND}
     return Columns(
         found["stamp"],

@@ -298,7 +298,7 @@ def _matrices(file: Readable, numbers: NDArray[np.float64]) -> _Poses:
     if (bad := np.flatnonzero(~np.isfinite(rows).all(axis=(1, 2)))).size:
         raise TrajectoryError(
             f"{file} has {count(len(bad), 'row')} with NaN or infinite numbers; the first one is pose {bad[0] + 1}",
-            hint="The poses of KITTI files are paired by their order, so that none can be left out.",
+            hint="The poses of KITTI files are paired by their order, so no pose can be omitted.",
         )
     matrices = np.zeros((len(rows), 4, 4))
     matrices[:, :3] = rows
@@ -387,4 +387,4 @@ def _check_unpacked_size(stream: BinaryIO) -> None:
         size = sum(member.file_size for member in archive.infolist())
     stream.seek(0)
     if size > MAX_UNPACKED:
-        raise ValueError(f"it unpacks to {size} bytes; the limit is {MAX_UNPACKED}")
+        raise ValueError(f"the archive unpacks to {size} bytes; the maximum is {MAX_UNPACKED}")

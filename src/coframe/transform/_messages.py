@@ -291,7 +291,7 @@ def _list_of(message: Any, transform: Transform) -> Contents:
     name = next((name for name in _POSE_LISTS if isinstance(getattr(message, name, None), list | tuple)), None)
     if name is None:
         raise ValueError(
-            f"{_name(message)} has no place for a batch of shape {transform.shape}. Convert one by one, or to "
+            f"{_name(message)} cannot contain a batch of shape {transform.shape}. Convert one by one, or to "
             "PoseArray or Path."
         )
     declared = message.get_fields_and_field_types()[name]  # sequence<geometry_msgs/Pose>

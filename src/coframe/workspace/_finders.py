@@ -129,10 +129,10 @@ def _find_kind(package: str, kind: str, above: list[str]) -> ModuleSpec | None:
 
 def _advice(name: str) -> str:
     from coframe.interfaces.sources import ENVIRONMENT, sources  # noqa: PLC0415 - as in _find_package
-    from coframe.interfaces.workspace import is_search_off  # noqa: PLC0415
+    from coframe.interfaces.workspace import is_search_disabled  # noqa: PLC0415
 
     missing = f"No module named {name!r}. coframe does not contain this package, and "
-    if is_search_off():
+    if is_search_disabled():
         return f"{missing}searches no other one, because Python was started with -I, -P or PYTHONSAFEPATH."
     searched = ", ".join(dict.fromkeys(str(source.folder) for source in sources())) or "any folder"
     source = f" Its source is {_SOURCES[name]} on GitHub." if name in _SOURCES else ""

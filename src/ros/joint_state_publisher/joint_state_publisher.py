@@ -125,7 +125,7 @@ class JointStatePublisher(node.JointStatePublisher):
             RobotDescriptionError: The description is not valid.
         """
         parsed = parse_urdf(robot.toxml())
-        return self.__joints(parsed, JointStates(parsed, **self._choices))
+        return self.__joints(parsed, JointStates(parsed, **self._chosen_parameters))
 
     def init_collada(self, robot: Any) -> Joints:
         """Raise an error, because descriptions in COLLADA are not supported.

@@ -3,7 +3,7 @@
 
 import pytest
 
-from coframe.cli.ros2.near_names import near_types
+from coframe.cli.ros2.near_names import similar_types_hint
 
 
 @pytest.mark.parametrize(
@@ -17,8 +17,8 @@ from coframe.cli.ros2.near_names import near_types
     ],
 )
 def test_a_type_that_does_not_exist(written, first):
-    assert near_types(written).startswith(f"Did you mean {first!r}")
+    assert similar_types_hint(written).startswith(f"Did you mean {first!r}")
 
 
 def test_no_suggestion_for_other_words():
-    assert [near_types(written) for written in ("", "/", "my_msgs/msg/Xyzzyq", "a/b/c/d")] == [""] * 4
+    assert [similar_types_hint(written) for written in ("", "/", "my_msgs/msg/Xyzzyq", "a/b/c/d")] == [""] * 4

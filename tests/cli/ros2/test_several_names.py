@@ -82,8 +82,8 @@ def test_a_table_of_several_topics(lines_of):
 
 def test_a_rate_needs_a_topic(run):
     for command in ("hz", "bw"):
-        assert "give either TOPIC or --all" in run("topic", command, code=2)
-        assert "give either TOPIC or --all" in run("topic", command, "/point", "--all", code=2)
+        assert "TOPIC and --all are mutually exclusive" in run("topic", command, code=2)
+        assert "TOPIC and --all are mutually exclusive" in run("topic", command, "/point", "--all", code=2)
 
 
 def test_echo_of_several_fields_and_of_elements(run):

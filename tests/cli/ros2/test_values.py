@@ -26,10 +26,10 @@ def error_for(message, text, capsys):
         ("{data: [1, 2", 13, "a comma or ] is missing"),
         ("{data: 'it's'}", 12, "a comma or } is missing"),
         ('{data: "a}', 11, "a quote is missing"),
-        ("data: a: b", 8, "there is a second colon"),
+        ("data: a: b", 8, "the line contains a second colon"),
         ("{data: %x}", 8, "a string that begins with this character needs quotes"),
         ("{data: *x}", 8, "a string that begins with * needs quotes"),
-        ("{data: a}}", 10, "there is something after the end of the values"),
+        ("{data: a}}", 10, "text follows the end of the values"),
         ("{", 2, "a value or a closing bracket is missing"),
     ],
 )
@@ -43,7 +43,7 @@ def test_invalid_yaml_is_shown_with_its_place_and_an_example(text, position, rea
 
 def test_the_line_of_a_long_text(capsys):
     first, shown, pointer, _ = error_for(Twist(), "linear:\n  x: 1.0\n  y: " + "1" * 80 + ": 3", capsys)
-    assert "at line 3, character 86: there is a second colon" in first
+    assert "at line 3, character 86: the line contains a second colon" in first
     assert shown[pointer.index("^")] == ":"
     assert len(shown) < 70
 

@@ -17,18 +17,18 @@ if TYPE_CHECKING:
 
 __all__ = ["child_environment", "pass_to_children", "python_command", "python_environment"]
 
-_START = str(Path(__file__).with_name("start.py"))
+_START_SCRIPT = str(Path(__file__).with_name("start.py"))
 # Variables that would make a process without a terminal wait for input, or run a file at startup or exit.
 _OMITTED_VARIABLES = ("PYTHONINSPECT", "PYTHONSTARTUP")
-_PATH = "PYTHONPATH"
+_PATH_VARIABLE = "PYTHONPATH"
 
 # What this process passes on: variable -> (value, value in the environment of this process at that time).
-_passed: dict[str, tuple[str, str | None]] = {}
+_passed_variables: dict[str, tuple[str, str | None]] = {}
 
 
 def pass_to_children(name: str, value: str) -> None:
     """Set an environment variable for child processes, but not for this process."""
-    _passed[name] = (value, os.environ.get(name))
+    _passed_variables[name] = (value, os.environ.get(name))
 
 
 def child_environment(base: Mapping[str, str] | None = None) -> dict[str, str]:
@@ -40,7 +40,7 @@ def child_environment(base: Mapping[str, str] | None = None) -> dict[str, str]:
             by a launch file, keeps its value.
     """
     environment = dict(os.environ if base is None else base)
-    for name, (value, before) in _passed.items():
+    for name, (value, before) in _passed_variables.items():
         if environment.get(name) == before:
             environment[name] = value
     return environment
@@ -55,7 +55,7 @@ def python_command(module: str, *arguments: str) -> list[str]:
         module: The full name of a module of coframe.
         arguments: The arguments after it.
     """
-    return [sys.executable, _START, module, *arguments]
+    return [sys.executable, _START_SCRIPT, module, *arguments]
 
 
 def python_environment(base: Mapping[str, str] | None = None) -> dict[str, str]:
@@ -70,8 +70,10 @@ def python_environment(base: Mapping[str, str] | None = None) -> dict[str, str]:
     environment = child_environment(base)
     for name in _OMITTED_VARIABLES:
         environment.pop(name, None)
-    if _PATH in environment:
-        elements = [str(Path(element).absolute()) for element in environment.pop(_PATH).split(os.pathsep) if element]
+    if _PATH_VARIABLE in environment:
+        elements = [
+            str(Path(element).absolute()) for element in environment.pop(_PATH_VARIABLE).split(os.pathsep) if element
+        ]
         if elements:
-            environment[_PATH] = os.pathsep.join(elements)
+            environment[_PATH_VARIABLE] = os.pathsep.join(elements)
     return environment

@@ -74,7 +74,7 @@ def explain(
     code = error.code if error else ""
     frames, steps, roots = _Chain((), [], None) if code in _NAME_ERRORS else _chain(seen, target, source, when)
     infos = {info.child: info for info in seen.edges([step.child for step in steps])}
-    present = _present(now, max((info.newest for info in infos.values()), default=0), recorded=recorded)
+    present = _current_time(now, max((info.newest for info in infos.values()), default=0), recorded=recorded)
     edges = tuple(_edge(seen, step, infos[step.child], when, stamp, present) for step in steps)
     found = Explanation(
         target=target,
@@ -91,7 +91,7 @@ def explain(
         missing=None if roots is None else _find_missing_edge(seen, roots),
         limit=_limit(edges, when) if stamp == 0 else None,
         span=_span(edges) if roots is None else None,
-        possible_at=None if roots is None else _possible_at(seen, target, source, edges),
+        possible_at=None if roots is None else _find_possible_time(seen, target, source, edges),
         cache=seen.cache_ns,
         now=present,
     )
@@ -113,7 +113,7 @@ def _latest_common_time(buffer: Buffer, target: str, source: str) -> int:
 
 
 def _chain(buffer: Buffer, target: str, source: str, stamp: int) -> _Chain:
-    steps = _steps_above(buffer, (target, source), stamp)
+    steps = _find_steps_above(buffer, (target, source), stamp)
     trees = FrameTrees.from_parents({child: step.parent for child, step in steps.items()}, (target, source))
     chain = trees.chain(target, source)
     if chain is None:
@@ -125,7 +125,7 @@ def _chain(buffer: Buffer, target: str, source: str, stamp: int) -> _Chain:
     return _Chain(tuple(chain), [steps[frame] for frame in chain if frame != top], None)
 
 
-def _steps_above(buffer: Buffer, frames: tuple[str, ...], stamp: int) -> dict[str, _Step]:
+def _find_steps_above(buffer: Buffer, frames: tuple[str, ...], stamp: int) -> dict[str, _Step]:
     """Return the edges above the frames by child: at that time, or of the newest sample if there is none."""
     steps: dict[str, _Step] = {}
     for start in frames:
@@ -137,7 +137,7 @@ def _steps_above(buffer: Buffer, frames: tuple[str, ...], stamp: int) -> dict[st
     return steps
 
 
-def _present(now: StampLike | None, newest: int, *, recorded: bool) -> int | None:
+def _current_time(now: StampLike | None, newest: int, *, recorded: bool) -> int | None:
     if now is not None:
         return stamp_ns(now)
     return None if recorded else current_time_for(newest)
@@ -190,7 +190,7 @@ def _find_missing_edge(buffer: Buffer, roots: tuple[str, str]) -> MissingEdge | 
     return missing_edge(*sorted(frames, key=len, reverse=True)) or MissingEdge(*roots, misspelled=False)
 
 
-def _possible_at(buffer: Buffer, target: str, source: str, edges: tuple[ChainEdge, ...]) -> int | None:
+def _find_possible_time(buffer: Buffer, target: str, source: str, edges: tuple[ChainEdge, ...]) -> int | None:
     """Return a time at which the frames are connected: frames may change their parents."""
     times = sorted({edge.oldest for edge in edges if edge.oldest}, reverse=True)
     return next((time for time in (0, *times) if buffer.can_transform(target, source, time)), None)

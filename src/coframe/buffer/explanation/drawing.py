@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from coframe.buffer.explanation._facts import ChainEdge, Explanation
 
-__all__ = ["draw", "draw_html", "edge_remark", "verdict"]
+__all__ = ["draw", "draw_html", "edge_remark", "verdict_text"]
 
 _MAX_INDENTED_LEVELS = 20  # levels of indentation; more would leave no room for the columns
 _LOOP_LINES = "\nFrame "  # after the first line of tf2's message about a loop, which lists all frames
@@ -29,7 +29,7 @@ class _Row(NamedTuple):
 
 def draw(found: Explanation) -> Iterator[str]:
     """Yield the verdict, the chain, what to do, and the message of tf2."""
-    yield verdict(found)
+    yield verdict_text(found)
     yield from _table(found)
     yield from _advice(found)
 
@@ -39,7 +39,7 @@ def draw_html(found: Explanation) -> str:
     rows = [(*row.cells, row.remark) for row in _rows(found)] if found.edges else []
     titles = (*(title.strip() for title in _TITLES), "")
     return html_tables.section(
-        verdict(found),
+        verdict_text(found),
         html_tables.table(titles, rows, len(rows), "frame"),
         *(html_tables.paragraph(line) for line in _advice(found)),
     )
@@ -55,7 +55,7 @@ def _advice(found: Explanation) -> Iterator[str]:
         yield f"tf2: {one_line(found.text.split(_LOOP_LINES)[0])}"
 
 
-def verdict(found: Explanation) -> str:
+def verdict_text(found: Explanation) -> str:
     """Return a sentence that says whether there is a transform and, if not, which edge is the reason."""
     frames = f"from {display_name(found.source)} to {display_name(found.target)}"
     if found.answered is None:
@@ -74,10 +74,10 @@ def verdict(found: Explanation) -> str:
 
 def edge_remark(found: Explanation, edge: ChainEdge) -> str:
     """Return what is wrong or unusual about an edge, and by how much; "" if nothing is."""
-    return _anomaly(found, edge) if edge.state == "ok" else _fault(found, edge)
+    return _anomaly_text(found, edge) if edge.state == "ok" else _fault_text(found, edge)
 
 
-def _fault(found: Explanation, edge: ChainEdge) -> str:
+def _fault_text(found: Explanation, edge: ChainEdge) -> str:
     by = duration(abs(edge.by))
     if edge.state == "too_new":
         due = (
@@ -94,7 +94,7 @@ def _fault(found: Explanation, edge: ChainEdge) -> str:
     return "no longer available"
 
 
-def _anomaly(found: Explanation, edge: ChainEdge) -> str:
+def _anomaly_text(found: Explanation, edge: ChainEdge) -> str:
     if edge.later:
         return f"the parent is now {display_name(edge.later)}"
     if edge.gap > usual_gap(edge.period):
@@ -107,7 +107,7 @@ def _reason(found: Explanation) -> str:
         return _REASONS[found.code]
     if found.unknown:
         frames = "frame" if len(found.unknown) == 1 else "frames"
-        return f"no transform with the {frames} {' and '.join(map(_quoted, found.unknown))} was received"
+        return f"no transform with the {frames} {' and '.join(map(_quote, found.unknown))} was received"
     reasons = []
     if found.broken:
         worst = max(found.broken, key=lambda edge: abs(edge.by))
@@ -118,7 +118,7 @@ def _reason(found: Explanation) -> str:
         )
     if found.roots is not None:
         reasons.append(
-            f"{_quoted(found.roots[0])} and {_quoted(found.roots[1])} are roots of two trees that are not connected"
+            f"{_quote(found.roots[0])} and {_quote(found.roots[1])} are roots of two trees that are not connected"
         )
     if found.missing is not None:
         edge = f"{display_name(found.missing.parent)} -> {display_name(found.missing.child)}"
@@ -127,7 +127,7 @@ def _reason(found: Explanation) -> str:
     return "; ".join(reasons)
 
 
-def _quoted(name: str) -> str:
+def _quote(name: str) -> str:
     return f"'{display_name(name)}'"
 
 
@@ -155,11 +155,11 @@ def _rows(found: Explanation) -> Iterator[_Row]:
     for indent, frame in _tree(found, edges):
         role = {found.target: " (target)", found.source: " (source)"}.get(frame, "")
         edge = edges.get(frame)
-        cells = ("",) * (len(_TITLES) - 1) if edge is None else _cells(edge)
+        cells = ("",) * (len(_TITLES) - 1) if edge is None else _edge_cells(edge)
         yield _Row((f"  {indent}{display_name(frame)}{role}", *cells), "" if edge is None else edge_remark(found, edge))
 
 
-def _cells(edge: ChainEdge) -> tuple[str, ...]:
+def _edge_cells(edge: ChainEdge) -> tuple[str, ...]:
     if edge.static:
         return "static", "", "", "", display_name(edge.publisher)
     if edge.state == "no_data":
@@ -175,15 +175,15 @@ def _tree(found: Explanation, edges: dict[str, ChainEdge]) -> Iterator[tuple[str
         cut = frames.index(found.roots[1])
         for root, *below in (frames[:cut][::-1], frames[cut:]):
             yield "", root
-            yield from _branch(below, last=True)
+            yield from _branch_lines(below, last=True)
         return
     top = next((position for position, frame in enumerate(frames) if frame not in edges), 0)
     yield "", frames[top]
-    yield from _branch(frames[:top][::-1], last=top + 1 == len(frames))
-    yield from _branch(frames[top + 1 :], last=True)
+    yield from _branch_lines(frames[:top][::-1], last=top + 1 == len(frames))
+    yield from _branch_lines(frames[top + 1 :], last=True)
 
 
-def _branch(frames: Sequence[str], *, last: bool) -> Iterator[tuple[str, str]]:
+def _branch_lines(frames: Sequence[str], *, last: bool) -> Iterator[tuple[str, str]]:
     first, further = ("└─ ", "   ") if last else ("├─ ", "│  ")
     for depth, frame in enumerate(frames):
         yield first if depth == 0 else f"{further}{'   ' * min(depth - 1, _MAX_INDENTED_LEVELS)}└─ ", frame

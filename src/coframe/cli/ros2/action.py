@@ -12,14 +12,14 @@ from coframe._output.formatting import did_you_mean
 from coframe.cli.declaration import CommandGroup, argument
 from coframe.cli.options import NonNegativeDuration, PositiveDuration, topic_name
 from coframe.cli.output import fail, one_line, print_bounded, printable
-from coframe.cli.ros2.calls import Deadline, result_of, timeout_option, wait_for_server
+from coframe.cli.ros2.calls import Deadline, await_response, timeout_option, wait_for_server
 from coframe.cli.ros2.events import echo_action
 from coframe.cli.ros2.graph import (
-    AT_ONCE,
-    DISCOVERY,
+    DISCOVERY_TIME,
+    NO_WAIT,
     GraphCommand,
     graph_node,
-    joined,
+    join_types,
     load_type,
     node_names,
     spin_time_option,
@@ -53,7 +53,7 @@ action.add_command(echo_action)
 @action.command(cls=GraphCommand, short_help="List the actions of a type.")
 @argument("action_type", metavar="TYPE", help="Type, e.g. example_interfaces/action/Fibonacci.")
 @click.option("--count-actions", "-c", "count", is_flag=True, help="Print only the number of actions.")
-@spin_time_option(DISCOVERY)
+@spin_time_option(DISCOVERY_TIME)
 def find(action_type: str, count: bool, spin_time: NonNegativeDuration) -> None:
     """List the actions of a type.
 
@@ -68,7 +68,7 @@ def find(action_type: str, count: bool, spin_time: NonNegativeDuration) -> None:
 @action_argument
 @click.option("--show-types", "-t", is_flag=True, help="Also show the types.")
 @click.option("--count", "-c", is_flag=True, help="Print only the numbers of nodes.")
-@spin_time_option(DISCOVERY)
+@spin_time_option(DISCOVERY_TIME)
 def info(
     action_name: str,
     show_types: bool,
@@ -90,16 +90,16 @@ def info(
             ("Action clients", get_action_client_names_and_types_by_node),
             ("Action servers", get_action_server_names_and_types_by_node),
         ):
-            found = _nodes_of(node, action_name, query)
+            found = _find_nodes(node, action_name, query)
             print(f"{title}: {len(found)}")
             for name, types in () if count else found:
-                print(one_line(f"    {name} {joined(types)}" if show_types else f"    {name}"))
+                print(one_line(f"    {name} {join_types(types)}" if show_types else f"    {name}"))
 
 
 @action.command("list", cls=GraphCommand, short_help="List the actions.")
 @click.option("--show-types", "-t", is_flag=True, help="Also show the types.")
 @click.option("--count-actions", "-c", "count", is_flag=True, help="Print only the number of actions.")
-@spin_time_option(DISCOVERY)
+@spin_time_option(DISCOVERY_TIME)
 def list_actions(
     show_types: bool,
     count: bool,
@@ -115,7 +115,7 @@ def list_actions(
         print(len(actions))
         return
     for name, types in actions:
-        print(one_line(f"{name} {joined(types)}" if show_types else name))
+        print(one_line(f"{name} {join_types(types)}" if show_types else name))
 
 
 @action.command("send_goal", short_help="Send a goal to an action server.")
@@ -147,7 +147,9 @@ def send_goal(
             print("Waiting for an action server to become available...", flush=True)
             deadline = Deadline(timeout)
             shown = f"action server {action_name}"
-            wait_for_server(client, client.wait_for_server, shown, deadline, lambda: _similar(node, action_name))
+            wait_for_server(
+                client, client.wait_for_server, shown, deadline, lambda: _similar_names_hint(node, action_name)
+            )
             _follow_goal(node, client, message, shown, deadline, feedback=feedback)
         finally:
             client.destroy()
@@ -166,7 +168,7 @@ def _follow_goal(node: Node, client: Any, goal: Any, shown: str, deadline: Deadl
 
     _print_indented("Sending goal", goal)
     sent = client.send_goal_async(goal, print_feedback if feedback else None)
-    handle = result_of(node, sent, shown, deadline)
+    handle = await_response(node, sent, shown, deadline)
     if not handle.accepted:
         fail("Goal was rejected.")
     print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n", flush=True)
@@ -175,7 +177,7 @@ def _follow_goal(node: Node, client: Any, goal: Any, shown: str, deadline: Deadl
         print_feedback(message)
     result = handle.get_result_async()
     try:
-        response = _awaited(node, result, deadline)
+        response = _await_result(node, result, deadline)
     except KeyboardInterrupt:
         _cancel(node, handle)
         raise
@@ -186,7 +188,7 @@ def _follow_goal(node: Node, client: Any, goal: Any, shown: str, deadline: Deadl
     print(f"Goal finished with status: {_status_name(response.status)}")
 
 
-def _awaited(node: Node, result: Any, deadline: Deadline) -> Any:
+def _await_result(node: Node, result: Any, deadline: Deadline) -> Any:
     """Return the result of a goal, which may take long; None after the deadline."""
     import rclpy  # noqa: PLC0415 - slow import
 
@@ -197,7 +199,7 @@ def _awaited(node: Node, result: Any, deadline: Deadline) -> Any:
 
 @action.command("type", cls=GraphCommand, short_help="Print the type of an action.")
 @action_argument
-@spin_time_option(AT_ONCE)
+@spin_time_option(NO_WAIT)
 def type_(action_name: str, spin_time: NonNegativeDuration) -> None:
     """Print the type of an action; the exit code is 1 if the action is unknown.
 
@@ -216,7 +218,7 @@ def _actions(node: Node) -> list[tuple[str, list[str]]]:
     return sorted(get_action_names_and_types(node))
 
 
-def _similar(node: Node, name: str) -> str:
+def _similar_names_hint(node: Node, name: str) -> str:
     """Return similar names of actions in the graph, or how to list all."""
     names = (each for each, _ in _actions(node) if each != name)  # The client of this command has it.
     return did_you_mean(name, names, most=2) or "coframe action list shows all actions."
@@ -246,7 +248,7 @@ def _status_name(status: int) -> str:
     return names.get(status, f"unknown ({status})").removeprefix("STATUS_")
 
 
-def _nodes_of(
+def _find_nodes(
     node: Node, action_name: str, query: Callable[[Node, str, str], list[tuple[str, list[str]]]]
 ) -> list[tuple[str, list[str]]]:
     """Return the nodes that have the action, with its types."""

@@ -10,7 +10,7 @@ import click
 
 from coframe.cli.options import PositiveDuration
 from coframe.cli.output import fail, one_line, warn
-from coframe.cli.ros2.graph import TIMEOUT, fail_once
+from coframe.cli.ros2.graph import ENDPOINT_TIMEOUT, fail_once
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -20,10 +20,10 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Deadline",
+    "await_response",
     "call_service",
     "fail_if_incompatible",
     "response_timeout_option",
-    "result_of",
     "timeout_option",
     "wait_for_server",
 ]
@@ -88,7 +88,7 @@ def wait_for_server(
         hint: Returns what to do, such as similar names in the graph.
     """
     reported = False
-    while not wait(deadline.remaining(TIMEOUT)):
+    while not wait(deadline.remaining(ENDPOINT_TIMEOUT)):
         fail_if_incompatible(client)
         if deadline.has_passed:
             fail(f"There was no {one_line(name)} within {deadline.limit}.", hint())
@@ -97,7 +97,7 @@ def wait_for_server(
             warn(f"There is no {one_line(name)} yet: waiting for it. {hint()}".rstrip())
 
 
-def result_of(node: Node, future: Any, name: str, deadline: Deadline) -> Any:
+def await_response(node: Node, future: Any, name: str, deadline: Deadline) -> Any:
     """Return the response of a server; print once that there is none yet, and end the command after the deadline.
 
     Args:
@@ -138,7 +138,7 @@ def call_service(
     seconds = _RESPONSE_TIMEOUT if timeout is None else timeout.seconds
     client = node.create_client(service_class, name)
     try:
-        if not client.wait_for_service(TIMEOUT if timeout is None else min(TIMEOUT, seconds)):
+        if not client.wait_for_service(ENDPOINT_TIMEOUT if timeout is None else min(ENDPOINT_TIMEOUT, seconds)):
             fail_if_incompatible(client)
             fail(f"There is no service {name}.", "coframe service list shows all services.")
         future = client.call_async(request)

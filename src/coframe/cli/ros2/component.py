@@ -15,8 +15,8 @@ from coframe.cli.declaration import CommandGroup, argument
 from coframe.cli.output import fail, one_line
 from coframe.cli.ros2.calls import call_service, response_timeout_option
 from coframe.cli.ros2.graph import (
-    AT_ONCE,
-    DISCOVERY,
+    DISCOVERY_TIME,
+    NO_WAIT,
     GraphCommand,
     graph_node,
     node_names,
@@ -127,7 +127,7 @@ def types(package: str | None) -> None:
 @argument("container", metavar="[CONTAINER]", required=False, help="Name of a container. [default: all containers]")
 @click.option("--containers-only", is_flag=True, help="List only the containers.")
 @response_timeout_option
-@spin_time_option(DISCOVERY)
+@spin_time_option(DISCOVERY_TIME)
 def list_components(
     container: str | None, containers_only: bool, timeout: PositiveDuration, spin_time: NonNegativeDuration
 ) -> None:
@@ -135,7 +135,7 @@ def list_components(
 
     Example: coframe component list
     """
-    with graph_node(AT_ONCE if container else spin_time) as node:
+    with graph_node(NO_WAIT if container else spin_time) as node:
         names = _containers(node) if container is None else [_check_container(node, container)]
         for name in names:
             if container is None:
@@ -158,7 +158,7 @@ def _print_components(node: Node, container: str, timeout: PositiveDuration, ind
 @_node_options
 @click.option("--quiet", "-q", is_flag=True, help="Print only the ID of the node.")
 @response_timeout_option
-@spin_time_option(AT_ONCE)
+@spin_time_option(NO_WAIT)
 def load(
     container: str,
     package: str,
@@ -188,7 +188,7 @@ def load(
 @container_argument
 @argument("numbers", metavar="ID...", nargs=-1, required=True, type=click.IntRange(min=0), help="IDs of the nodes.")
 @response_timeout_option
-@spin_time_option(AT_ONCE)
+@spin_time_option(NO_WAIT)
 def unload(container: str, numbers: tuple[int, ...], timeout: PositiveDuration, spin_time: NonNegativeDuration) -> None:
     """Unload composable nodes from a running container.
 
@@ -218,7 +218,7 @@ def unload(container: str, numbers: tuple[int, ...], timeout: PositiveDuration, 
     "--container-node-name", "-c", "container_name", metavar="NAME", default="", help="Name of the container's node."
 )
 @response_timeout_option
-@spin_time_option(AT_ONCE)
+@spin_time_option(NO_WAIT)
 def standalone(
     package: str,
     plugin: str,

@@ -8,14 +8,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from coframe.cli.output import fail
-from coframe.cli.ros2.near_names import near_types
+from coframe.cli.ros2.near_names import similar_types_hint
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from coframe.interfaces.definition_files import Definition
 
-__all__ = ["origin", "shown_definition"]
+__all__ = ["definition_lines", "origin_lines"]
 
 # A field: the type without array bounds, and the name. A constant has "=" after its name.
 _FIELD = re.compile(
@@ -26,7 +26,7 @@ _MAX_LEVELS = 16
 _KINDS = ("msg", "srv", "action")
 
 
-def shown_definition(name: str, *, comments: bool, nested_comments: bool, level: int = 0) -> Iterator[str]:
+def definition_lines(name: str, *, comments: bool, nested_comments: bool, level: int = 0) -> Iterator[str]:
     """Yield the lines of a definition; fields of nested types follow their field, indented by tabs.
 
     Args:
@@ -44,7 +44,7 @@ def shown_definition(name: str, *, comments: bool, nested_comments: bool, level:
         if field is None or _PRIMITIVE_TYPE.fullmatch(field["type"]) or level == _MAX_LEVELS:
             continue
         nested = "std_msgs/Header" if field["type"] == "Header" else field["type"]
-        yield from shown_definition(
+        yield from definition_lines(
             nested if "/" in nested else f"{package}/msg/{nested}",
             comments=comments and nested_comments,
             nested_comments=nested_comments,
@@ -52,11 +52,11 @@ def shown_definition(name: str, *, comments: bool, nested_comments: bool, level:
         )
 
 
-def origin(name: str) -> Iterator[str]:
+def origin_lines(name: str) -> Iterator[str]:
     """Yield the file of a definition and its type hash, as comments.
 
     Args:
-        name: Name of a type, as for :func:`shown_definition`.
+        name: Name of a type, as for :func:`definition_lines`.
     """
     from coframe.messages.registry import find  # noqa: PLC0415 - slow import
     from coframe.messages.type_hash import type_hash  # noqa: PLC0415
@@ -72,7 +72,7 @@ def _parts(name: str) -> tuple[str, str, str]:
         parts.insert(1, "msg")
     if len(parts) != 3 or parts[1] not in _KINDS or not all(parts):
         examples = "Examples: geometry_msgs/msg/Pose, std_srvs/srv/SetBool"
-        fail(f"{name!r} is not a type name.", near_types(name) or examples, code=2)
+        fail(f"{name!r} is not a type name.", similar_types_hint(name) or examples, code=2)
     return parts[0], parts[1], parts[2]
 
 
@@ -91,5 +91,8 @@ def _definition(package: str, kind: str, name: str) -> Definition:
         if found is None:
             fail(f"Unknown package '{package}'", "coframe interface packages shows all packages with types.")
         whole = f"{package}/{kind}/{name}"
-        fail(f"Unknown type '{whole}'", near_types(whole) or f"coframe interface package {package} shows its types.")
+        fail(
+            f"Unknown type '{whole}'",
+            similar_types_hint(whole) or f"coframe interface package {package} shows its types.",
+        )
     return read(path)

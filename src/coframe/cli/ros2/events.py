@@ -12,7 +12,7 @@ from coframe.cli.declaration import argument
 from coframe.cli.options import NonNegativeDuration, topic_name
 from coframe.cli.output import fail, print_bounded, printable, warn
 from coframe.cli.ros2.graph import (
-    AT_ONCE,
+    NO_WAIT,
     GraphCommand,
     graph_node,
     load_type,
@@ -39,7 +39,7 @@ _ENABLE_HINT = "Its node enables them: configure_introspection(clock, qos, Servi
 @argument("service_type", metavar="[TYPE]", required=False, help="Type, e.g. std_srvs/srv/SetBool.")
 @text_options
 @sim_time_option
-@spin_time_option(AT_ONCE)
+@spin_time_option(NO_WAIT)
 def echo_service(
     service_name: str,
     service_type: str | None,
@@ -67,7 +67,7 @@ def echo_service(
 @argument("action_type", metavar="[TYPE]", required=False, help="Type, e.g. example_interfaces/action/Fibonacci.")
 @text_options
 @sim_time_option
-@spin_time_option(AT_ONCE)
+@spin_time_option(NO_WAIT)
 def echo_action(
     action_name: str,
     action_type: str | None,
@@ -87,7 +87,7 @@ def echo_action(
         stream = MessageStream(node)
         for interface, topic, message_class, qos in _interfaces(action_name, load_type(kind, get_action)):
             stream.subscribe(topic, message_class, qos, label=interface)
-        for interface, message in stream.labeled():
+        for interface, message in stream.labeled_messages():
             text = _text(message, text_format)
             print_bounded(f"{interface},{text}" if text_format.csv else f"interface: {interface}\n{text}")
 
@@ -151,7 +151,7 @@ def _text(message: Any, text_format: TextFormat) -> str:
 
     if text_format.csv:
         return printable(message_to_csv(message, **text_format.limits).replace("\n", r"\n"))
-    values = _plain(message_to_ordereddict(message, **text_format.limits))
+    values = _to_plain_data(message_to_ordereddict(message, **text_format.limits))
     info = values.get("info")
     if isinstance(info, dict) and "event_type" in info:
         info["event_type"] = _EVENT_TYPES.get(info["event_type"], info["event_type"])
@@ -163,8 +163,8 @@ def _text(message: Any, text_format: TextFormat) -> str:
     return printable(f"{text}---")
 
 
-def _plain(value: Any) -> Any:
+def _to_plain_data(value: Any) -> Any:
     """Return ordered dictionaries as plain ones, also inside lists."""
     if isinstance(value, dict):
-        return {name: _plain(each) for name, each in value.items()}
-    return [_plain(each) for each in value] if isinstance(value, list | tuple) else value
+        return {name: _to_plain_data(each) for name, each in value.items()}
+    return [_to_plain_data(each) for each in value] if isinstance(value, list | tuple) else value

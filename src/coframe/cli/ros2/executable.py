@@ -82,7 +82,7 @@ def rviz2() -> None:
     parser.add_argument("-f", "--fixed-frame", metavar="FRAME", help="the fixed frame")
     parser.add_argument("-s", "--splash-screen", metavar="FILE", help=argparse.SUPPRESS)
     parser.add_argument("--fullscreen", action="store_true", help=argparse.SUPPRESS)
-    given, rest = parser.parse_known_args(_without_ros_arguments(sys.argv[1:]))
+    given, rest = parser.parse_known_args(_remove_ros_arguments(sys.argv[1:]))
     if rest:
         parser.error(f"unknown arguments: {' '.join(rest)}. coframe view --help shows the options of the viewer.")
     words = ["view"]
@@ -125,10 +125,10 @@ def is_own_script(path: Path) -> bool:
     return _OWN_SCRIPT in content
 
 
-def _without_ros_arguments(words: list[str]) -> list[str]:
+def _remove_ros_arguments(words: list[str]) -> list[str]:
     """Return the words without ``--ros-args ... --``, which the viewer does not need."""
     if "--ros-args" not in words:
         return words
     start = words.index("--ros-args")
     rest = words[start:]
-    return words[:start] + (_without_ros_arguments(rest[rest.index("--") + 1 :]) if "--" in rest else [])
+    return words[:start] + (_remove_ros_arguments(rest[rest.index("--") + 1 :]) if "--" in rest else [])

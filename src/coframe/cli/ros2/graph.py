@@ -19,7 +19,7 @@ from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import NonNegativeDuration, topic_name
 from coframe.cli.output import fail, warn
 from coframe.cli.ros2.hidden_names import is_hidden
-from coframe.cli.ros2.near_names import near_types
+from coframe.cli.ros2.near_names import similar_types_hint
 from coframe.errors import CoframeError
 
 if TYPE_CHECKING:
@@ -29,14 +29,14 @@ if TYPE_CHECKING:
     from rclpy.node import Node
 
 __all__ = [
-    "AT_ONCE",
+    "NO_WAIT",
     "GraphCommand",
     "all_option",
     "fail_once",
     "fail_without_node",
     "graph_node",
     "hidden_topics_option",
-    "joined",
+    "join_types",
     "load_type",
     "node_argument",
     "node_names",
@@ -48,17 +48,17 @@ __all__ = [
     "wait_until",
 ]
 
-DISCOVERY = NonNegativeDuration("0.4s")  # ros2cli waits 0.5 s without its daemon
-AT_ONCE = NonNegativeDuration("0s")
+DISCOVERY_TIME = NonNegativeDuration("0.4s")  # ros2cli waits 0.5 s without its daemon
+NO_WAIT = NonNegativeDuration("0s")
 # Fast DDS may take seconds to announce an endpoint, so commands wait longer for a specific name than for a list.
-TIMEOUT = 3.0  # seconds
+ENDPOINT_TIMEOUT = 3.0  # seconds
 _PERIOD = 0.02  # seconds between two checks of the graph
 
-_warned: set[str] = set()  # the warnings that were printed
+_printed_warnings: set[str] = set()  # the warnings that were printed
 
 
 def spin_time_option(default: NonNegativeDuration) -> Callable[[Declared], Declared]:
-    """Declare the option `--spin-time`: DISCOVERY for lists, AT_ONCE for commands that wait for a name."""
+    """Declare the option `--spin-time`: DISCOVERY_TIME for lists, NO_WAIT for commands that wait for a name."""
     return click.option(
         "--spin-time",
         metavar="DURATION",
@@ -98,7 +98,7 @@ class GraphCommand(Command):
 
 @contextlib.contextmanager
 def graph_node(
-    spin_time: NonNegativeDuration = AT_ONCE, *, use_sim_time: bool = False, name: str = ""
+    spin_time: NonNegativeDuration = NO_WAIT, *, use_sim_time: bool = False, name: str = ""
 ) -> Iterator[Node]:
     """Run a hidden node for the duration of a command, and wait for the discovery of other nodes.
 
@@ -148,32 +148,35 @@ def _wait_for_nodes(participant: Participant) -> None:
     """Wait for the nodes of processes that have been discovered, at most for PATIENCE."""
     if not (unnamed := participant.unnamed_participants()):
         return
-    print(f"Waiting for the nodes of {_processes(unnamed)}.", file=sys.stderr)
+    print(f"Waiting for the nodes of {_processes_text(unnamed)}.", file=sys.stderr)
     if not wait_until(lambda: not participant.unnamed_participants()):
         unnamed = participant.unnamed_participants()
-        warn(f"The nodes of {_processes(unnamed)} are still unknown after {TIMEOUT:g} s, so they are not listed.")
+        warn(
+            f"The nodes of {_processes_text(unnamed)} are still unknown after {ENDPOINT_TIMEOUT:g} s, so they are "
+            f"not listed."
+        )
 
 
-def _processes(middlewares: list[str]) -> str:
+def _processes_text(middlewares: list[str]) -> str:
     count = "1 process" if len(middlewares) == 1 else f"{len(middlewares)} processes"
     return f"{count} ({', '.join(sorted(set(middlewares)))})"
 
 
 def _warn(text: str) -> None:
-    _warned.add(text)
+    _printed_warnings.add(text)
     warn(text)
 
 
 def fail_once(text: str) -> NoReturn:
     """End the command with an error of the middleware, printed unless it was already printed as a warning."""
-    if text in _warned:
+    if text in _printed_warnings:
         raise Exit(1)
     fail(text)
 
 
 def wait_until(condition: Callable[[], Any]) -> Any:
     """Return the first true result of a function, or its last result after PATIENCE."""
-    deadline = time.monotonic() + TIMEOUT
+    deadline = time.monotonic() + ENDPOINT_TIMEOUT
     while not (result := condition()) and time.monotonic() < deadline:
         time.sleep(_PERIOD)
     return result
@@ -247,11 +250,12 @@ def load_type(kind: str, load: Callable[[str], Any]) -> Any:
     except (AttributeError, ImportError, LookupError, TypeError, ValueError) as error:
         fail(
             f"The passed type '{kind}' is invalid: {error}",
-            near_types(kind) or "coframe interface list shows all types. COFRAME_INTERFACES adds packages of your own.",
+            similar_types_hint(kind)
+            or "coframe interface list shows all types. COFRAME_INTERFACES adds packages of your own.",
         )
 
 
-def joined(types: Iterable[str]) -> str:
+def join_types(types: Iterable[str]) -> str:
     """Return types as ros2 prints them after a name."""
     return f"[{', '.join(types)}]"
 

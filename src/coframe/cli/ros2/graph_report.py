@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from coframe.cli.options import NonNegativeDuration
 from coframe.cli.output import one_line, report_console
-from coframe.cli.ros2.graph import graph_node, joined, node_names
+from coframe.cli.ros2.graph import graph_node, join_types, node_names
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -25,7 +25,7 @@ def print_graph() -> None:
         sections = {
             "Nodes": node_names(node, include_hidden=False),
             "Topics": list(_topics(node)),
-            "Incompatible QoS": list(_incompatible(node)),
+            "Incompatible QoS": list(_incompatibility_lines(node)),
             "Services": list(_services(node)),
             "Actions": list(_actions(node)),
         }
@@ -39,10 +39,10 @@ def print_graph() -> None:
 def _topics(node: Node) -> Iterator[str]:
     for name, types in sorted(node.get_topic_names_and_types()):
         counts = f"{node.count_publishers(name)} publishers, {node.count_subscribers(name)} subscriptions"
-        yield f"{name} {joined(types)}: {counts}"
+        yield f"{name} {join_types(types)}: {counts}"
 
 
-def _incompatible(node: Node) -> Iterator[str]:
+def _incompatibility_lines(node: Node) -> Iterator[str]:
     """Yield a line for each publisher and subscription of a topic that cannot communicate."""
     from rclpy.qos import QoSCompatibility, qos_check_compatible  # noqa: PLC0415 - slow import
 
@@ -56,11 +56,11 @@ def _incompatible(node: Node) -> Iterator[str]:
 
 def _services(node: Node) -> Iterator[str]:
     for name, types in sorted(node.get_service_names_and_types()):
-        yield f"{name} {joined(types)}: {node.count_services(name)} servers, {node.count_clients(name)} clients"
+        yield f"{name} {join_types(types)}: {node.count_services(name)} servers, {node.count_clients(name)} clients"
 
 
 def _actions(node: Node) -> Iterator[str]:
     from rclpy.action import get_action_names_and_types  # noqa: PLC0415 - slow import
 
     for name, types in sorted(get_action_names_and_types(node)):
-        yield f"{name} {joined(types)}"
+        yield f"{name} {join_types(types)}"

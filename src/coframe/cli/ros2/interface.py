@@ -13,7 +13,7 @@ import click
 from coframe.cli.declaration import CommandGroup, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.output import fail, printable
-from coframe.cli.ros2.definition_text import origin, shown_definition
+from coframe.cli.ros2.definition_text import definition_lines, origin_lines
 from coframe.cli.ros2.graph import load_type
 from coframe.cli.ros2.interface_packages import add, check, remove, stubs
 
@@ -127,8 +127,8 @@ def show(type_name: str, all_comments: bool, no_comments: bool, with_origin: boo
     """
     with run_to_completion():
         if with_origin:
-            _print_all(origin(type_name))
-        _print_all(shown_definition(type_name, comments=not no_comments, nested_comments=all_comments))
+            _print_all(origin_lines(type_name))
+        _print_all(definition_lines(type_name, comments=not no_comments, nested_comments=all_comments))
 
 
 for _command in (add, check, remove, stubs):

@@ -14,7 +14,7 @@ from coframe.cli.output import fail, printable, warn
 from coframe.errors import InterfaceError
 from coframe.interfaces.sources import ENVIRONMENT, InterfaceFolder, package_folders, sources
 from coframe.interfaces.user_folders import added_paths, set_added_paths, settings_file, stub_folder
-from coframe.interfaces.workspace import add_start
+from coframe.interfaces.workspace import add_start_folder
 from coframe.messages.packages import forget, load_package, shipped_names
 from coframe.messages.stub_files import write_stubs
 
@@ -55,12 +55,15 @@ def check(folder: Path | None) -> None:
             if name in found:
                 continue
             found[name] = path
-            click.echo(printable(f"{name}: {_content(load_package(name, path))}, in {path} ({source.origin})"))
-            errors += _invalid(load_package(name, path))
+            click.echo(printable(f"{name}: {_content_text(load_package(name, path))}, in {path} ({source.origin})"))
+            errors += _find_invalid(load_package(name, path))
     if not found:
         searched = list(dict.fromkeys(printable(f"\n  {source.folder}") for source in sources()))
         click.echo("None of your packages were found. Searched:" + ("".join(searched) or " no folder"))
-        click.echo(f"Run `coframe interface check FOLDER` to include those of a program, or set {ENVIRONMENT}.")
+        click.echo(
+            f"Run `coframe interface check FOLDER` to include the packages that a program would find, or set "
+            f"{ENVIRONMENT}."
+        )
         click.echo("Run `coframe interface add FOLDER` to add a folder for all programs and commands.")
     click.echo(f"coframe contains {', '.join(name for name in shipped_names() if name not in found)}.")
     _report(errors)
@@ -88,8 +91,8 @@ def add(path: Path) -> None:
     forget()
     packages = [load_package(name, found[name]) for name in sorted(found)]
     for package in packages:
-        click.echo(printable(f"{package.name}: {_content(package)}, in {package.folder}"))
-    errors = [error for package in packages for error in _invalid(package)]
+        click.echo(printable(f"{package.name}: {_content_text(package)}, in {package.folder}"))
+    errors = [error for package in packages for error in _find_invalid(package)]
     _write_stubs(packages, stub_folder())
     _report(errors)
 
@@ -144,7 +147,7 @@ def _search_from(folder: Path | None) -> None:
     if folder is None:
         return
     _require_folder(folder.expanduser())
-    add_start(folder.expanduser())
+    add_start_folder(folder.expanduser())
 
 
 def _require_folder(path: Path) -> None:
@@ -164,11 +167,11 @@ def _packages_in(source: InterfaceFolder) -> dict[str, Path]:
     return dict(sorted(package_folders(source).items()))
 
 
-def _content(package: InterfacePackage) -> str:
+def _content_text(package: InterfacePackage) -> str:
     return ", ".join(f"{len(package.names(kind))} {kind}" for kind in package.kinds())
 
 
-def _invalid(package: InterfacePackage) -> list[InterfaceError]:
+def _find_invalid(package: InterfacePackage) -> list[InterfaceError]:
     errors: list[InterfaceError] = []
     for kind in package.kinds():
         for name in package.names(kind):

@@ -11,8 +11,8 @@ from coframe.cli.declaration import CommandGroup, argument
 from coframe.cli.output import fail, one_line
 from coframe.cli.ros2.calls import call_service, response_timeout_option
 from coframe.cli.ros2.graph import (
-    AT_ONCE,
-    DISCOVERY,
+    DISCOVERY_TIME,
+    NO_WAIT,
     GraphCommand,
     all_option,
     graph_node,
@@ -40,7 +40,7 @@ lifecycle = CommandGroup(
 @argument("node_name", metavar="[NODE]", required=False, help="Name of a node. [default: all lifecycle nodes]")
 @all_option
 @response_timeout_option
-@spin_time_option(DISCOVERY)
+@spin_time_option(DISCOVERY_TIME)
 def get(
     node_name: str | None,
     include_hidden: bool,
@@ -51,7 +51,7 @@ def get(
 
     Example: coframe lifecycle get /lidar
     """
-    with graph_node(AT_ONCE if node_name else spin_time) as node:
+    with graph_node(NO_WAIT if node_name else spin_time) as node:
         names = (
             [_check_node_exists(node, node_name)]
             if node_name
@@ -66,7 +66,7 @@ def get(
 @node_argument
 @click.option("--all", "-a", "show_all", is_flag=True, help="List all transitions of the node.")
 @response_timeout_option
-@spin_time_option(AT_ONCE)
+@spin_time_option(NO_WAIT)
 def list_transitions(
     node_name: str,
     show_all: bool,
@@ -87,7 +87,7 @@ def list_transitions(
 @lifecycle.command(cls=GraphCommand, short_help="List the lifecycle nodes.")
 @all_option
 @click.option("--count-nodes", "-c", "count", is_flag=True, help="Print only the number of nodes.")
-@spin_time_option(DISCOVERY)
+@spin_time_option(DISCOVERY_TIME)
 def nodes(
     include_hidden: bool,
     count: bool,
@@ -106,7 +106,7 @@ def nodes(
 @node_argument
 @argument("transition", metavar="TRANSITION", help="Name or ID of a transition, e.g. configure or activate.")
 @response_timeout_option
-@spin_time_option(AT_ONCE)
+@spin_time_option(NO_WAIT)
 def set_state(
     node_name: str,
     transition: str,

@@ -49,7 +49,7 @@ class MessageStream:
         from rclpy.executors import SingleThreadedExecutor  # noqa: PLC0415 - slow import
 
         self._node = node
-        self._arrived: deque[tuple[str, Any]] = deque()
+        self._arrived_messages: deque[tuple[str, Any]] = deque()
         self._executor = SingleThreadedExecutor(context=node.context)
         self._executor.add_node(node)
         if topic is not None:
@@ -70,7 +70,7 @@ class MessageStream:
         self._node.create_subscription(
             message_class,
             topic,
-            lambda message: self._arrived.append((name, message)),
+            lambda message: self._arrived_messages.append((name, message)),
             qos,
             raw=raw,
             event_callbacks=_lost_events() if report_lost else None,
@@ -79,14 +79,14 @@ class MessageStream:
     def take_labeled(self, seconds: float) -> tuple[str, Any] | None:
         """Return the label of the next message and the message; None after the timeout."""
         deadline = time.monotonic() + seconds
-        while not self._arrived:
+        while not self._arrived_messages:
             left = deadline - time.monotonic()
             if left <= 0:
                 return None
             self._executor.spin_once(timeout_sec=min(left, _MAX_WAIT))
-        return self._arrived.popleft()
+        return self._arrived_messages.popleft()
 
-    def labeled(self) -> Iterator[tuple[str, Any]]:
+    def labeled_messages(self) -> Iterator[tuple[str, Any]]:
         """Yield messages with their labels, forever."""
         while True:
             pair = self.take_labeled(_MAX_WAIT)
@@ -127,15 +127,15 @@ def message_filter(expression: str | None) -> Callable[[Any], bool]:
 def field_of(message: Any, path: str) -> Any:
     """Return the field of a message with a path such as "pose.position.x" or "ranges[0]"; end the command if none."""
     try:
-        return functools.reduce(_part, path.split("."), message)
+        return functools.reduce(_select_part, path.split("."), message)
     except (AttributeError, IndexError, TypeError) as error:
         fail(f"Invalid field '{path}': {error}", f"Fields: {', '.join(message.get_fields_and_field_types())}.", code=2)
 
 
-def _part(value: Any, step: str) -> Any:
+def _select_part(value: Any, step: str) -> Any:
     """Return a field of a message, or an element of one: "ranges[0]"."""
     match = _ELEMENT.fullmatch(step)
-    return getattr(value, step) if match is None else _part(value, match[1])[int(match[2])]
+    return getattr(value, step) if match is None else _select_part(value, match[1])[int(match[2])]
 
 
 def _lost_events() -> Any:

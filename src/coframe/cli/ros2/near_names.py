@@ -7,24 +7,24 @@ import difflib
 
 from coframe._output.formatting import did_you_mean
 
-__all__ = ["near_types"]
+__all__ = ["similar_types_hint"]
 
 _KINDS = ("msg", "srv", "action")
 _MAX_NAMES = 3
 
 
-def near_types(name: str) -> str:
+def similar_types_hint(name: str) -> str:
     """Return "Did you mean ...?" for a nonexistent type, even if parts of its name are missing.
 
     Args:
         name: What the user wrote, e.g. "std_msgs/String" or "TransformStamped".
     """
-    from coframe.messages.packages import find_package, shipped, shipped_names  # noqa: PLC0415 - slow import
+    from coframe.messages.packages import find_package, find_shipped, shipped_names  # noqa: PLC0415 - slow import
 
     package, _, last = name.rpartition("/")
     package = package.partition("/")[0]
     found = find_package(package) if package else None
-    packages = [found] if found else [each for each in map(shipped, shipped_names()) if each]
+    packages = [found] if found else [each for each in map(find_shipped, shipped_names()) if each]
     types = [f"{each.name}/{kind}/{type_}" for each in packages for kind in _KINDS for type_ in each.names(kind)]
     same = [each for each in types if each.rpartition("/")[2] == last]
     if same:

@@ -11,7 +11,7 @@ import click
 from coframe.cli.declaration import CommandGroup
 from coframe.cli.output import one_line
 from coframe.cli.ros2.graph import (
-    DISCOVERY,
+    DISCOVERY_TIME,
     GraphCommand,
     all_option,
     fail_without_node,
@@ -41,7 +41,7 @@ node = CommandGroup(
 @node.command("list", cls=GraphCommand, short_help="List the nodes.")
 @all_option
 @click.option("--count-nodes", "-c", "count", is_flag=True, help="Print only the number of nodes.")
-@spin_time_option(DISCOVERY)
+@spin_time_option(DISCOVERY_TIME)
 def list_nodes(
     include_hidden: bool,
     count: bool,
@@ -69,7 +69,7 @@ def list_nodes(
 @node.command(cls=GraphCommand, short_help="Show the topics, services and actions of a node.")
 @node_argument
 @click.option("--include-hidden", is_flag=True, help="Also show hidden topics, services and actions.")
-@spin_time_option(DISCOVERY)
+@spin_time_option(DISCOVERY_TIME)
 def info(
     node_name: str,
     include_hidden: bool,

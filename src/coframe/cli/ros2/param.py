@@ -16,8 +16,8 @@ from coframe.cli.options import topic_name
 from coframe.cli.output import fail, fail_to_write, one_line, printable, warn
 from coframe.cli.ros2.calls import response_timeout_option
 from coframe.cli.ros2.graph import (
-    AT_ONCE,
-    DISCOVERY,
+    DISCOVERY_TIME,
+    NO_WAIT,
     GraphCommand,
     graph_node,
     node_argument,
@@ -56,7 +56,7 @@ param = CommandGroup(
 @node_argument
 @parameter_argument
 @response_timeout_option
-@spin_time_option(AT_ONCE)
+@spin_time_option(NO_WAIT)
 def delete(
     node_name: str,
     name: str,
@@ -78,7 +78,7 @@ def delete(
 @node_argument
 @argument("names", metavar="NAME...", nargs=-1, required=True, help="Names of parameters.")
 @response_timeout_option
-@spin_time_option(AT_ONCE)
+@spin_time_option(NO_WAIT)
 def describe(
     node_name: str,
     names: tuple[str, ...],
@@ -103,11 +103,13 @@ def describe(
     "--output-dir",
     metavar="FOLDER",
     type=PATH,
-    help="Write them to a file in this folder, which is named after the node, instead of printing them.",
+    help="Write the parameters to a file in this folder, named after the node, instead of printing them.",
 )
-@click.option("--print", "prints", is_flag=True, hidden=True, help="Accepted for compatibility: it is the default.")
+@click.option(
+    "--print", "prints", is_flag=True, hidden=True, help="Accepted for compatibility: printing is the default."
+)
 @response_timeout_option
-@spin_time_option(AT_ONCE)
+@spin_time_option(NO_WAIT)
 def dump(
     node_name: str, output_dir: Path | None, prints: bool, timeout: PositiveDuration, spin_time: NonNegativeDuration
 ) -> None:
@@ -143,7 +145,7 @@ def dump(
 @click.option("--hide-type", is_flag=True, help="Print only the values.")
 @hidden_nodes_option
 @response_timeout_option
-@spin_time_option(DISCOVERY)
+@spin_time_option(DISCOVERY_TIME)
 def get(
     words: tuple[str, ...],
     hide_type: bool,
@@ -210,7 +212,7 @@ def _value(client: ParameterClient, name: str, *, hide_type: bool) -> str | None
 )
 @hidden_nodes_option
 @response_timeout_option
-@spin_time_option(DISCOVERY)
+@spin_time_option(DISCOVERY_TIME)
 def list_parameters(
     node_name: str | None,
     prefixes: tuple[str, ...],
@@ -228,7 +230,7 @@ def list_parameters(
         pattern = re.compile(expression or "")
     except re.error as error:
         fail(f"--filter: {expression!r} is not a regular expression: {error}", code=2)
-    with graph_node(AT_ONCE if node_name else spin_time) as node:
+    with graph_node(NO_WAIT if node_name else spin_time) as node:
         for each in [node_name] if node_name else node_names(node, include_hidden=include_hidden):
             client = ParameterClient(node, each, required=node_name is not None, timeout=timeout)
             if not client.is_available:
@@ -247,7 +249,7 @@ def list_parameters(
 @argument("file", metavar="FILE", type=PATH, help="A YAML file in the format of --params-file.")
 @click.option("--no-use-wildcard", is_flag=True, help="Do not use the parameters under /**.")
 @response_timeout_option
-@spin_time_option(AT_ONCE)
+@spin_time_option(NO_WAIT)
 def load(
     node_name: str,
     file: Path,
@@ -289,7 +291,7 @@ def load(
     help="Names and values of parameters; values are YAML, e.g. 1.5, true or '[1, 2]'.",
 )
 @response_timeout_option
-@spin_time_option(AT_ONCE)
+@spin_time_option(NO_WAIT)
 def set_parameters(
     node_name: str,
     words: tuple[str, ...],

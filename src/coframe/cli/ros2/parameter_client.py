@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from coframe.cli.output import fail
 from coframe.cli.ros2.calls import call_service, fail_if_incompatible
-from coframe.cli.ros2.graph import TIMEOUT, fail_without_node, node_names, wait_until
+from coframe.cli.ros2.graph import ENDPOINT_TIMEOUT, fail_without_node, node_names, wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -51,7 +51,7 @@ class ParameterClient:
             probe = self._node.create_client(ListParameters, f"{self._target}/list_parameters")
         except InvalidServiceNameException:  # Other programs can announce nodes with arbitrary names.
             return False
-        found: bool = probe.wait_for_service(TIMEOUT if required else _SHORT_TIMEOUT)
+        found: bool = probe.wait_for_service(ENDPOINT_TIMEOUT if required else _SHORT_TIMEOUT)
         if required and not found:
             fail_if_incompatible(probe)
         self._node.destroy_client(probe)

@@ -92,7 +92,7 @@ def create(
         fail(f"--build-type: {build_type!r} is not supported", f"Types: {', '.join(BUILD_TYPES)}.", code=2)
     if library_name is not None or (build_type == "ament_cmake" and node_name is not None):
         fail(
-            "coframe creates no C++ programs and libraries",
+            "coframe cannot create C++ programs or libraries",
             "Use --build-type ament_python with --node-name for a Python node.",
             code=2,
         )

@@ -13,14 +13,14 @@ from coframe._output.formatting import did_you_mean
 from coframe.cli.declaration import CommandGroup, argument
 from coframe.cli.options import NonNegativeDuration, PositiveDuration, topic_name
 from coframe.cli.output import fail, one_line, printable
-from coframe.cli.ros2.calls import Deadline, result_of, timeout_option, wait_for_server
+from coframe.cli.ros2.calls import Deadline, await_response, timeout_option, wait_for_server
 from coframe.cli.ros2.events import echo_service
 from coframe.cli.ros2.graph import (
-    AT_ONCE,
-    DISCOVERY,
+    DISCOVERY_TIME,
+    NO_WAIT,
     GraphCommand,
     graph_node,
-    joined,
+    join_types,
     load_type,
     spin_time_option,
     wait_until,
@@ -87,7 +87,7 @@ def call(
         from rclpy.qos import qos_profile_services_default  # noqa: PLC0415 - help starts faster
         from rosidl_runtime_py.utilities import get_service  # noqa: PLC0415
 
-        kind = load_type(_full_type(service_type), get_service)
+        kind = load_type(_complete_type(service_type), get_service)
         request = kind.Request()
         fill_stamps = read_values(request, values)
         words = QoSWords(qos_profile, qos_depth, qos_history, qos_reliability, qos_durability)
@@ -101,7 +101,7 @@ def call(
         while True:
             fill_stamps(node.get_clock().now().to_msg())
             print(f"requester: making request: {request!r}\n", flush=True)
-            response = result_of(node, client.call_async(request), shown, Deadline(timeout))
+            response = await_response(node, client.call_async(request), shown, Deadline(timeout))
             print(f"response:\n{response!r}\n", flush=True)
             if rate is None:
                 return
@@ -115,7 +115,7 @@ service.add_command(echo_service)
 @argument("service_type", metavar="TYPE", help="Type, e.g. std_srvs/srv/SetBool.")
 @click.option("--count-services", "-c", "count", is_flag=True, help="Print only the number of services.")
 @hidden_services_option
-@spin_time_option(DISCOVERY)
+@spin_time_option(DISCOVERY_TIME)
 def find(
     service_type: str,
     count: bool,
@@ -134,7 +134,7 @@ def find(
 @service.command(cls=GraphCommand, short_help="Show the type, clients and servers of a service.")
 @service_argument
 @click.option("--verbose", "-v", is_flag=True, help="Show the node, type, GIDs and QoS of each client and server.")
-@spin_time_option(DISCOVERY)
+@spin_time_option(DISCOVERY_TIME)
 def info(service_name: str, verbose: bool, spin_time: NonNegativeDuration) -> None:
     """Show the type of a service, and how many clients and servers it has.
 
@@ -158,7 +158,7 @@ def info(service_name: str, verbose: bool, spin_time: NonNegativeDuration) -> No
 @click.option("--show-types", "-t", is_flag=True, help="Also show the types.")
 @click.option("--count-services", "-c", "count", is_flag=True, help="Print only the number of services.")
 @hidden_services_option
-@spin_time_option(DISCOVERY)
+@spin_time_option(DISCOVERY_TIME)
 def list_services(
     show_types: bool,
     count: bool,
@@ -175,12 +175,12 @@ def list_services(
         print(len(services))
         return
     for name, types in services:
-        print(one_line(f"{name} {joined(types)}" if show_types else name))
+        print(one_line(f"{name} {join_types(types)}" if show_types else name))
 
 
 @service.command("type", cls=GraphCommand, short_help="Print the type of a service.")
 @service_argument
-@spin_time_option(AT_ONCE)
+@spin_time_option(NO_WAIT)
 def type_(service_name: str, spin_time: NonNegativeDuration) -> None:
     """Print the type of a service; the exit code is 1 if the service is unknown.
 
@@ -197,7 +197,7 @@ def _services(node: Node, *, include_hidden: bool) -> list[tuple[str, list[str]]
     return [each for each in sorted(node.get_service_names_and_types()) if include_hidden or not is_hidden(each[0])]
 
 
-def _full_type(name: str) -> str:
+def _complete_type(name: str) -> str:
     """Return the full name of a service type; as in ros2, "std_srvs/Empty" is "std_srvs/srv/Empty"."""
     package, _, last = name.partition("/")
     return f"{package}/srv/{last}" if last and "/" not in last else name

@@ -11,12 +11,12 @@ from click.exceptions import Exit
 from coframe.cli.declaration import CommandGroup, argument
 from coframe.cli.output import fail, one_line, printable
 from coframe.cli.ros2.graph import (
-    AT_ONCE,
-    DISCOVERY,
+    DISCOVERY_TIME,
+    NO_WAIT,
     GraphCommand,
     graph_node,
     hidden_topics_option,
-    joined,
+    join_types,
     spin_time_option,
     topic_argument,
     wait_until,
@@ -45,7 +45,7 @@ topic.add_command(echo)
 @argument("topic_type", metavar="TYPE", help="Type, e.g. sensor_msgs/msg/LaserScan.")
 @click.option("--count-topics", "-c", "count", is_flag=True, help="Print only the number of topics.")
 @hidden_topics_option
-@spin_time_option(DISCOVERY)
+@spin_time_option(DISCOVERY_TIME)
 def find(
     topic_type: str,
     count: bool,
@@ -69,7 +69,7 @@ topic.add_command(hz)
 @click.option(
     "--verbose", "-v", is_flag=True, help="Show the node, type, GID and QoS of each publisher and subscription."
 )
-@spin_time_option(DISCOVERY)
+@spin_time_option(DISCOVERY_TIME)
 def info(
     topic_name: str,
     verbose: bool,
@@ -100,7 +100,7 @@ def info(
     "--verbose", "-v", is_flag=True, help="Also show the types and the numbers of publishers and subscriptions."
 )
 @hidden_topics_option
-@spin_time_option(DISCOVERY)
+@spin_time_option(DISCOVERY_TIME)
 def list_topics(
     show_types: bool,
     count: bool,
@@ -121,7 +121,7 @@ def list_topics(
             _print_counts("Subscribed", "subscriber", [(*each, node.count_subscribers(each[0])) for each in topics])
         else:
             for name, types in topics:
-                print(one_line(f"{name} {joined(types)}" if show_types else name))
+                print(one_line(f"{name} {join_types(types)}" if show_types else name))
 
 
 topic.add_command(pub)
@@ -129,7 +129,7 @@ topic.add_command(pub)
 
 @topic.command("type", cls=GraphCommand, short_help="Print the type of a topic.")
 @topic_argument
-@spin_time_option(AT_ONCE)
+@spin_time_option(NO_WAIT)
 def type_(topic_name: str, spin_time: NonNegativeDuration) -> None:
     """Print the type of a topic; the exit code is 1 if the topic is unknown.
 
@@ -151,5 +151,5 @@ def _print_counts(title: str, noun: str, topics: list[tuple[str, list[str], int]
     print(f"{title} topics:")
     for name, types, number in topics:
         if number:
-            print(one_line(f" * {name} {joined(types)} {number} {noun}{'' if number == 1 else 's'}"))
+            print(one_line(f" * {name} {join_types(types)} {number} {noun}{'' if number == 1 else 's'}"))
     print()

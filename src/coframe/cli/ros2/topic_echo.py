@@ -11,7 +11,7 @@ from coframe.cli.declaration import argument
 from coframe.cli.options import NonNegativeDuration
 from coframe.cli.output import fail, print_bounded, printable
 from coframe.cli.ros2.graph import (
-    AT_ONCE,
+    NO_WAIT,
     GraphCommand,
     graph_node,
     hidden_topics_option,
@@ -82,7 +82,7 @@ _CLEAR = "\x1b[H\x1b[2J"  # moves the cursor home and clears the terminal
 @durability_option
 @hidden_topics_option
 @sim_time_option
-@spin_time_option(AT_ONCE)
+@spin_time_option(NO_WAIT)
 def echo(
     topic_name: str,
     message_type: str | None,

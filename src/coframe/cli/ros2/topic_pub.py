@@ -12,7 +12,7 @@ import click
 from coframe.cli.declaration import PATH, argument
 from coframe.cli.options import NonNegativeDuration, topic_name
 from coframe.cli.output import fail
-from coframe.cli.ros2.graph import AT_ONCE, GraphCommand, graph_node, load_type, sim_time_option, spin_time_option
+from coframe.cli.ros2.graph import NO_WAIT, GraphCommand, graph_node, load_type, sim_time_option, spin_time_option
 from coframe.cli.ros2.qos import (
     QoSWords,
     depth_option,
@@ -21,7 +21,7 @@ from coframe.cli.ros2.qos import (
     profile_option,
     reliability_option,
 )
-from coframe.cli.ros2.values import documents_of, read_values
+from coframe.cli.ros2.values import read_documents, read_values
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -87,7 +87,7 @@ _POLL = 0.1  # seconds between two looks for matching subscriptions, as in ros2c
 @reliability_option
 @durability_option
 @sim_time_option
-@spin_time_option(AT_ONCE)
+@spin_time_option(NO_WAIT)
 def pub(
     topic_name: str,
     message_type: str,
@@ -121,7 +121,7 @@ def pub(
         from rosidl_runtime_py.utilities import get_message  # noqa: PLC0415 - slow import
 
         kind = load_type(message_type, get_message)
-        texts = [values or "{}"] if yaml_file is None else documents_of(yaml_file)
+        texts = [values or "{}"] if yaml_file is None else read_documents(yaml_file)
         messages = [_Message.read(kind, text) for text in texts]
         qos = QoSWords(qos_profile, qos_depth, qos_history, qos_reliability, qos_durability).to_profile()
         if yaml_file is not None:

@@ -16,8 +16,8 @@ from coframe.cli.declaration import argument
 from coframe.cli.options import topic_name
 from coframe.cli.output import fail, one_line
 from coframe.cli.ros2.graph import (
-    AT_ONCE,
-    DISCOVERY,
+    DISCOVERY_TIME,
+    NO_WAIT,
     GraphCommand,
     graph_node,
     load_type,
@@ -83,7 +83,7 @@ def window_option(default: int) -> Callable[[Declared], Declared]:
 )
 @click.option("--wall-time", is_flag=True, help="Use the system time instead of /clock.")
 @sim_time_option
-@spin_time_option(AT_ONCE)
+@spin_time_option(NO_WAIT)
 def hz(
     topic_names: tuple[str, ...],
     all_topics: bool,
@@ -118,7 +118,7 @@ def hz(
 @all_topics_option
 @window_option(100)
 @sim_time_option
-@spin_time_option(AT_ONCE)
+@spin_time_option(NO_WAIT)
 def bw(
     topic_names: tuple[str, ...],
     all_topics: bool,
@@ -149,7 +149,7 @@ def bw(
 @topic_argument
 @window_option(10_000)
 @sim_time_option
-@spin_time_option(AT_ONCE)
+@spin_time_option(NO_WAIT)
 def delay(
     topic_name: str,
     window: int,
@@ -176,7 +176,7 @@ def delay(
 def _check_topics(topics: tuple[str, ...], *, all_topics: bool) -> None:
     """End the command unless either topics or --all are given."""
     if bool(topics) == all_topics:
-        fail("give either TOPIC or --all", "Example: coframe topic hz /scan /odom", code=2)
+        fail("TOPIC and --all are mutually exclusive", "Example: coframe topic hz /scan /odom", code=2)
 
 
 def _stream(node: Node, names: tuple[str, ...], *, raw: bool) -> tuple[MessageStream, list[str]]:
@@ -185,7 +185,7 @@ def _stream(node: Node, names: tuple[str, ...], *, raw: bool) -> tuple[MessageSt
     from rosidl_runtime_py.utilities import get_message  # noqa: PLC0415 - slow import
 
     stream = MessageStream(node)
-    topics = list(dict.fromkeys(names)) or _published(node)
+    topics = list(dict.fromkeys(names)) or _published_topics(node)
     for topic in topics:
         kind = topic_type(node, topic, wait=True)
         # Best effort, as in ros2cli: it matches every publisher.
@@ -193,14 +193,14 @@ def _stream(node: Node, names: tuple[str, ...], *, raw: bool) -> tuple[MessageSt
     return stream, topics
 
 
-def _published(node: Node) -> list[str]:
+def _published_topics(node: Node) -> list[str]:
     """Return the topics of the graph; end the command if there are none."""
     topics: list[str] = wait_until(
         lambda: sorted(name for name, _ in node.get_topic_names_and_types() if not is_hidden(name))
     )
     if not topics:
         fail("There are no topics.", "coframe topic list --include-hidden-topics shows all topics.")
-    time.sleep(DISCOVERY.seconds)
+    time.sleep(DISCOVERY_TIME.seconds)
     return sorted(name for name, _ in node.get_topic_names_and_types() if not is_hidden(name))
 
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-__all__ = ["documents_of", "read_values", "yaml_value"]
+__all__ = ["read_documents", "read_values", "yaml_value"]
 
 MAX_FILE = 16 << 20  # bytes of a file with messages
 _MAX_EXCERPT = 60  # characters of an invalid text in an error message
@@ -24,13 +24,14 @@ _REASONS = {
     "found unexpected ':'": "a space is missing after the colon",
     "',' or '}'": "a comma or } is missing, or a string with special characters has no quotes",
     "',' or ']'": "a comma or ] is missing, or a string with special characters has no quotes",
-    "mapping values are not allowed": "there is a second colon; a string that contains a colon and a space needs "
+    "mapping values are not allowed": "the line contains a second colon; a string that contains a colon and a space "
+    "needs "
     "quotes",
     "unexpected end of stream": "a quote is missing",
     "cannot start any token": "a string that begins with this character needs quotes",
     "expected node content": "a value or a closing bracket is missing",
     "undefined alias": "a string that begins with * needs quotes",
-    "<document start>": "there is something after the end of the values",
+    "<document start>": "text follows the end of the values",
 }
 
 
@@ -59,7 +60,7 @@ def yaml_value(text: str, what: str, hint: str = "") -> Any:
         fail(f"{what} is not valid YAML at {where}: {reason}", hint, code=2, details=pointer)
 
 
-def documents_of(path: Path) -> list[str]:
+def read_documents(path: Path) -> list[str]:
     """Return the YAML documents of a file, which lines of three hyphens separate; end the command if there are none."""
     try:
         text = read_regular(path, MAX_FILE).decode()

@@ -29,14 +29,14 @@ if TYPE_CHECKING:
 __all__ = [
     "TOLERANCE",
     "Task",
-    "differs",
-    "edge_of",
+    "difference_text",
     "expanded_xacro",
     "mean_rate",
-    "pose_of",
+    "read_edge",
+    "read_pose",
     "run_program",
-    "seconds_of",
     "stamp_ns",
+    "to_seconds",
 ]
 
 TOLERANCE = 1e-6  # meters, and components of unit quaternions
@@ -83,13 +83,13 @@ def run_program(task: Task, sheet: Sheet, *, wrong_topic: str = "") -> Iterator[
     program = StudentProgram(file, task.scratch, task.confinement)
     try:
         yield program
-        intruder = _intruder(task.world)
-        silence = "" if task.world.has_received() else _silence(sheet.file, task.world, wrong_topic)
+        intruder = _intruder_reason(task.world)
+        silence = "" if task.world.has_received() else _silence_reason(sheet.file, task.world, wrong_topic)
     finally:
         task.world.stop()
         task.world.stop_publishing()
     cheat = program.attempt() or intruder
-    problem = cheat or program.crash()
+    problem = cheat or program.crash_reason()
     sheet.add_problem(problem)
     if problem or silence:
         sheet.last_lines = program.last_lines()
@@ -101,7 +101,7 @@ def run_program(task: Task, sheet: Sheet, *, wrong_topic: str = "") -> Iterator[
         sheet.set_cause(first, "the program exited before it published anything")
 
 
-def _silence(file: str, world: World, wrong_topic: str) -> str:
+def _silence_reason(file: str, world: World, wrong_topic: str) -> str:
     """Return a message about a program that publishes nothing; "" if it has a publisher on a wrong topic."""
     topics = [topic for topic in world.watched_topics() if world.publishers_of(topic)]
     if wrong_topic in topics:
@@ -148,7 +148,7 @@ def _file_problem(folder: Path, name: str) -> str:
     return ""
 
 
-def _intruder(world: World) -> str:
+def _intruder_reason(world: World) -> str:
     for topic, names in world.intruders().items():
         return f"The program publishes on {topic} (node {', '.join(names)}), on which only the simulation may publish."
     return ""
@@ -160,12 +160,12 @@ def stamp_ns(message: Any) -> int:
     return int(stamp.sec) * SECOND + int(stamp.nanosec)
 
 
-def seconds_of(nanoseconds: int) -> float:
+def to_seconds(nanoseconds: int) -> float:
     """Return nanoseconds in seconds."""
     return nanoseconds / SECOND
 
 
-def edge_of(message: Any) -> Transform:
+def read_edge(message: Any) -> Transform:
     """Return a TransformStamped message as a transform without normalizing its quaternion."""
     moved, turned = message.transform.translation, message.transform.rotation
     values = np.array([turned.x, turned.y, turned.z, turned.w])
@@ -178,7 +178,7 @@ def edge_of(message: Any) -> Transform:
     )
 
 
-def pose_of(message: Any) -> Transform:
+def read_pose(message: Any) -> Transform:
     """Return the pose of a PoseStamped message as a transform."""
     position, turned = message.pose.position, message.pose.orientation
     values = np.array([turned.x, turned.y, turned.z, turned.w])
@@ -189,7 +189,7 @@ def pose_of(message: Any) -> Transform:
     )
 
 
-def differs(pose: Transform, correct: Transform, tolerance: float = TOLERANCE) -> str:
+def difference_text(pose: Transform, correct: Transform, tolerance: float = TOLERANCE) -> str:
     """Return how a pose differs from the correct one; "" if it is within the tolerance.
 
     The quaternions q and -q are the same rotation.
@@ -211,7 +211,7 @@ def mean_rate(received: list[Received]) -> float:
     times = sorted({each.time for each in received})
     if len(times) < 2:
         return 0.0
-    return (len(times) - 1) / seconds_of(times[-1] - times[0])
+    return (len(times) - 1) / to_seconds(times[-1] - times[0])
 
 
 def _numbers(values: Any) -> str:

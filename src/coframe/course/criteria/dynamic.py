@@ -11,7 +11,7 @@ import numpy as np
 from coframe.course._motion import JOINT_PERIOD
 from coframe.course._sheet import Sheet
 from coframe.course._world import STEP, stamp_of
-from coframe.course.criteria.common import TOLERANCE, Task, mean_rate, run_program, seconds_of, stamp_ns
+from coframe.course.criteria.common import TOLERANCE, Task, mean_rate, run_program, stamp_ns, to_seconds
 from coframe.course.rubric import RUBRIC
 from coframe.time import SECOND
 from sensor_msgs.msg import JointState
@@ -28,7 +28,7 @@ _EDGES = (("base_link", "link1"), ("link1", "link2"), ("link2", "end_effector"))
 _ANGLE = 1e-3  # radians; far below the effect of a wrong amplitude, frequency or phase
 _JOINT_STATE_PERIOD = 2 * STEP
 _STARTUP_TIME = SECOND // 5
-_READ = "handbook chapter 3, static and dynamic transforms"
+_CHAPTER = "handbook chapter 3, static and dynamic transforms"
 
 
 def check(task: Task) -> Sheet:
@@ -46,20 +46,20 @@ def check(task: Task) -> Sheet:
         followed = received[len(simulated) :]
         _check_edges(sheet, simulated)
         _check_dimensions(sheet, task, simulated)
-        _check_law(sheet, simulated)
+        _check_motion_law(sheet, simulated)
         _check_times(sheet, task, simulated)
         _check_joint_states(sheet, followed)
     return sheet
 
 
-def _given_angles(seconds: float) -> tuple[float, float]:
+def _published_angles(seconds: float) -> tuple[float, float]:
     """Return the joint states published by the check: the arm swings slowly, far from the simulated motion."""
     return 1.2 + 0.1 * float(np.sin(seconds)), -0.9 + 0.1 * float(np.cos(seconds))
 
 
 def _publish_joint_states(world: World, now: int) -> None:
     if now % _JOINT_STATE_PERIOD == 0:
-        state = JointState(name=["joint1", "joint2"], position=list(_given_angles(seconds_of(now))))
+        state = JointState(name=["joint1", "joint2"], position=list(_published_angles(to_seconds(now))))
         state.header.stamp = stamp_of(now)
         world.publish("/joint_states", state)
 
@@ -82,7 +82,7 @@ def _check_edges(sheet: Sheet, received: list[Received]) -> None:
             expected=f"transforms from {parent} to {child} on /tf",
             observed=f"parents: {', '.join(sorted(parents))}" if parents else f"no transform to {child}",
             cause="header.frame_id is the parent, child_frame_id the child",
-            read=_READ,
+            read=_CHAPTER,
         )
 
 
@@ -107,7 +107,7 @@ def _check_dimensions(sheet: Sheet, task: Task, received: list[Received]) -> Non
         )
 
 
-def _check_law(sheet: Sheet, received: list[Received]) -> None:
+def _check_motion_law(sheet: Sheet, received: list[Received]) -> None:
     """Check the joint angles at their stamps; the motion may start at any time."""
     good = [_follows_law(received, index) for index in (0, 1)]
     together = _common_start(received) if all(good) else False
@@ -145,13 +145,13 @@ def _angle_at(index: int, seconds: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _residuals(received: list[Received], index: int, starts: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the maximum deviation from the specified motion, in radians, for each possible start time."""
-    samples = _without_startup(_samples(received, ("link1", "link2")[index]))
-    times = np.array([seconds_of(stamp_ns(each) % round(JOINT_PERIOD * SECOND)) for each in samples])
+    samples = _remove_startup(_samples(received, ("link1", "link2")[index]))
+    times = np.array([to_seconds(stamp_ns(each) % round(JOINT_PERIOD * SECOND)) for each in samples])
     angles = np.array([_angle(each) for each in samples])
     return np.asarray(np.abs(_angle_at(index, times[None, :] - starts[:, None]) - angles[None, :]).max(axis=1))
 
 
-def _without_startup(samples: list[Any]) -> list[Any]:
+def _remove_startup(samples: list[Any]) -> list[Any]:
     """Return the samples without the initial ones, when the simulated clock jumps to its start time."""
     return [each for each in samples if stamp_ns(each) - stamp_ns(samples[0]) > _STARTUP_TIME]
 
@@ -161,7 +161,7 @@ def _starts() -> NDArray[np.float64]:
 
 
 def _follows_law(received: list[Received], index: int) -> bool:
-    if len(_without_startup(_samples(received, ("link1", "link2")[index]))) < 3:
+    if len(_remove_startup(_samples(received, ("link1", "link2")[index]))) < 3:
         return False
     return bool(_residuals(received, index, _starts()).min() <= _ANGLE)
 
@@ -183,7 +183,7 @@ def _check_times(sheet: Sheet, task: Task, received: list[Received]) -> None:
         expected=f"{wanted:g} Hz, 10 % more or less",
         observed=f"{rate:.1f} Hz",
         cause="a different timer period",
-        read=_READ,
+        read=_CHAPTER,
     )
     stamps = [stamp_ns(each) for each in _samples(received, "link1")]
     ahead = [stamp_ns(edge) - each.time for each in arm for edge in each.message.transforms]
@@ -196,7 +196,7 @@ def _check_times(sheet: Sheet, task: Task, received: list[Received]) -> None:
         expected="stamps from the node's clock, each later than the previous one",
         observed="repeated or decreasing stamps"
         if not increasing
-        else f"stamps up to {seconds_of(late):.3g} s off the clock"
+        else f"stamps up to {to_seconds(late):.3g} s off the clock"
         if stamps
         else "no transform",
         cause="the stamp is set once, or is the time of the system: use self.get_clock().now() for each message",
@@ -225,7 +225,7 @@ def _check_joint_states(sheet: Sheet, received: list[Received]) -> None:
         expected="the angles of the last joint state",
         observed="other angles" if followed else "no transform while joint states are published",
         cause="no subscription to /joint_states, or the positions are not used",
-        read=_READ,
+        read=_CHAPTER,
     )
     sheet.check(
         3,
@@ -250,7 +250,7 @@ def _angles(received: Received) -> dict[str, float]:
 
 def _is_followed(received: Received) -> bool:
     """Return whether the angles match a joint state of the last 100 ms."""
-    times = [seconds_of(received.time - age * STEP) for age in range(11)]
+    times = [to_seconds(received.time - age * STEP) for age in range(11)]
     found = _angles(received)
-    given = [dict(zip(("link1", "link2"), _given_angles(each), strict=True)) for each in times]
+    given = [dict(zip(("link1", "link2"), _published_angles(each), strict=True)) for each in times]
     return any(all(abs(found[child] - each[child]) <= _ANGLE for child in found) for each in given)

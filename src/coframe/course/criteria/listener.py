@@ -11,12 +11,12 @@ from coframe.course._world import STEP
 from coframe.course.criteria.common import (
     TOLERANCE,
     Task,
-    differs,
+    difference_text,
     mean_rate,
-    pose_of,
+    read_pose,
     run_program,
-    seconds_of,
     stamp_ns,
+    to_seconds,
 )
 from coframe.course.rubric import RUBRIC
 from coframe.time import SECOND
@@ -129,21 +129,21 @@ def _check_poses(sheet: Sheet, robot: SimulatedRobot, poses: list[Received]) -> 
 def _difference(robot: SimulatedRobot, received: Received) -> str:
     stamp = stamp_ns(received.message)
     at_sample = (stamp + _LATENCY) % _PERIOD == 0
-    return differs(
-        pose_of(received.message), robot.end_effector(stamp), TOLERANCE if at_sample else _INTERPOLATION_TOLERANCE
+    return difference_text(
+        read_pose(received.message), robot.end_effector(stamp), TOLERANCE if at_sample else _INTERPOLATION_TOLERANCE
     )
 
 
 def _is_correct_at_other_time(robot: SimulatedRobot, poses: list[Received]) -> bool:
     """Return whether all poses are right at an earlier time instead of at their stamps."""
-    return all(_true_time(robot, each) is not None for each in poses)
+    return all(_find_pose_time(robot, each) is not None for each in poses)
 
 
-def _true_time(robot: SimulatedRobot, received: Received) -> int | None:
-    pose = pose_of(received.message)
+def _find_pose_time(robot: SimulatedRobot, received: Received) -> int | None:
+    pose = read_pose(received.message)
     for age in range(0, _MAX_AGE, STEP):
         moment = received.time - age
-        if not differs(pose, robot.end_effector(moment), TOLERANCE):
+        if not difference_text(pose, robot.end_effector(moment), TOLERANCE):
             return moment
     return None
 
@@ -152,12 +152,14 @@ def _cause(robot: SimulatedRobot, poses: list[Received]) -> str:
     if not poses:
         return "see the facts above"
     if _is_correct_at_other_time(robot, poses):
-        late = min(stamp_ns(each.message) - (_true_time(robot, each) or 0) for each in poses)
+        late = min(stamp_ns(each.message) - (_find_pose_time(robot, each) or 0) for each in poses)
         return (
-            f"the stamp is {seconds_of(late) * 1000:.0f} ms later than the transform: "
+            f"the stamp is {to_seconds(late) * 1000:.0f} ms later than the transform: "
             "use transform.header.stamp, not now()"
         )
     inverse = [robot.end_effector(stamp_ns(each.message)).inverse() for each in poses]
-    if all(not differs(pose_of(each.message), other, 0.05) for each, other in zip(poses, inverse, strict=True)):
+    if all(
+        not difference_text(read_pose(each.message), other, 0.05) for each, other in zip(poses, inverse, strict=True)
+    ):
         return "target and source are swapped: lookup_transform('base_link', 'end_effector', ...)"
     return "wrong frames, or a part of the pose is not set"

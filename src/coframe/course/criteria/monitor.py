@@ -50,7 +50,7 @@ def check(task: Task) -> Sheet:
         is_alive = program is not None and program.is_running()
         sheet.check(
             3,
-            "it publishes nothing if there is no problem",
+            "the node publishes nothing if there is no problem",
             is_alive and not healthy and bool(problems),
             expected=f"no message on {_TOPIC} until there is a problem",
             observed=f"{healthy} messages" if healthy else "no message, even when there is a problem",
@@ -59,7 +59,7 @@ def check(task: Task) -> Sheet:
         )
         sheet.check(
             4,
-            "it reports a transform that stopped",
+            "the node reports a transform that stopped",
             _names(stale, "end_effector") or _names(stale, "link1"),
             expected="a message with link1, link2 or end_effector within 3 s",
             observed=_quoted(stale),
@@ -68,7 +68,7 @@ def check(task: Task) -> Sheet:
         )
         sheet.check(
             3,
-            "it reports a frame with two parents",
+            "the node reports a frame with two parents",
             _names(reparented, "base_link"),
             expected="a message with base_link within 3 s",
             observed=_quoted(reparented),

@@ -34,7 +34,7 @@ _SCAN_PERIOD = 10 * STEP
 _SCANS = 15  # in each of the two frames
 _TOLERANCE = 1e-3  # meters
 # Seconds of real time from a scan to the transform of its stamp. On a robot, this is usually 10 to 50 ms.
-_WAIT = 0.03
+_TRANSFORM_DELAY = 0.03
 _GRIPPER = "gripper_link"
 _GRIPPER_OFFSET = (0.1, 0.0, 0.0)
 _NO_WAIT_CAUSE = "the lookup does not wait: the transform of a scan arrives after it. Use a timeout or a MessageFilter"
@@ -60,7 +60,7 @@ def check(task: Task) -> Sheet:
             frame = task.assignment.lidar.frame if len(scans) < _SCANS else _GRIPPER
             scans[now] = _scan(robot, now, frame)
             world.publish("/scan", scans[now].message)
-            time.sleep(_WAIT)
+            time.sleep(_TRANSFORM_DELAY)
         world.publish_transforms(robot.arm_at(now), now)
 
     with run_program(task, sheet) as program:
@@ -151,7 +151,7 @@ def _check_messages(sheet: Sheet, world: World, scans: dict[int, _Scan], clouds:
 
 
 def _check_points(sheet: Sheet, scans: dict[int, _Scan], clouds: list[Received]) -> None:
-    compared = [(scan, _points(each)) for each in clouds if (scan := _scan_of(scans, each)) is not None]
+    compared = [(scan, _points(each)) for each in clouds if (scan := _find_scan(scans, each)) is not None]
     counts = [len(points) == len(scan.points) for scan, points in compared]
     wrong = next((f"{len(p)} points instead of {len(s.points)}" for s, p in compared if len(p) != len(s.points)), "")
     sheet.check(
@@ -194,7 +194,7 @@ def _check_points(sheet: Sheet, scans: dict[int, _Scan], clouds: list[Received])
         )
 
 
-def _scan_of(scans: dict[int, _Scan], received: Received) -> _Scan | None:
+def _find_scan(scans: dict[int, _Scan], received: Received) -> _Scan | None:
     """Return the scan of a cloud: the one with its stamp, or the last one before its arrival."""
     stamp = stamp_ns(received.message)
     if stamp in scans:

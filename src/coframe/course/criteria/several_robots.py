@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from coframe.analysis.tree import FrameTrees
 from coframe.course._sheet import Sheet
-from coframe.course.criteria.common import Task, edge_of, run_program
+from coframe.course.criteria.common import Task, read_edge, run_program
 from coframe.course.rubric import RUBRIC
 from tf2_msgs.msg import TFMessage
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["check"]
 
 _ROBOTS = ("robot1/", "robot2/")
-_ARM = {"link1": "base_link", "link2": "link1", "end_effector": "link2"}
+_ARM_PARENTS = {"link1": "base_link", "link2": "link1", "end_effector": "link2"}
 _READ = "handbook chapter 7, the complete tree"
 
 
@@ -34,17 +34,17 @@ def check(task: Task) -> Sheet:
         edges = _edges([*static, *dynamic])
         parents = {edge.child_frame_id: edge.header.frame_id for edge in edges}
         for prefix in _ROBOTS:
-            right = [child for child, parent in _ARM.items() if parents.get(prefix + child) == prefix + parent]
+            right = [child for child, parent in _ARM_PARENTS.items() if parents.get(prefix + child) == prefix + parent]
             sheet.check(
                 2.5,
                 f"the arm of {prefix[:-1]} has prefixed frames",
-                len(right) / len(_ARM),
+                len(right) / len(_ARM_PARENTS),
                 expected=f"{prefix}base_link -> {prefix}link1 -> {prefix}link2 -> {prefix}end_effector",
                 observed=f"{len(right)} of 3 transforms",
                 cause="the prefix ends with a slash and precedes both the parent and the child",
                 read=_READ,
             )
-        bare = sorted(name for name in parents if name in {*_ARM, "base_link"})
+        bare = sorted(name for name in parents if name in {*_ARM_PARENTS, "base_link"})
         sheet.check(
             2,
             "no frame without a prefix is published twice",
@@ -58,7 +58,7 @@ def check(task: Task) -> Sheet:
         sheet.check(
             3,
             "both robots are in one tree, at different places",
-            len(trees.roots) == 1 and _are_apart(edges),
+            len(trees.roots) == 1 and _have_different_poses(edges),
             expected="map -> robot1/... and map -> robot2/... with different poses",
             observed=f"{len(trees.roots)} trees" if len(trees.roots) != 1 else "both robots are at the same place",
             cause="a static transform from map to the first frame of each robot is missing",
@@ -71,11 +71,11 @@ def _edges(received: list[Received]) -> list[Any]:
     return [edge for each in received for edge in each.message.transforms]
 
 
-def _are_apart(edges: list[Any]) -> bool:
+def _have_different_poses(edges: list[Any]) -> bool:
     """Return whether the transforms from a shared frame to frames of the two robots differ."""
     into = {}
     for edge in edges:
         for prefix in _ROBOTS:
             if edge.child_frame_id.startswith(prefix) and not edge.header.frame_id.startswith(prefix):
-                into[prefix] = edge_of(edge).translation
+                into[prefix] = read_edge(edge).translation
     return len(into) == 2 and abs(into[_ROBOTS[0]] - into[_ROBOTS[1]]).max() > 0.01

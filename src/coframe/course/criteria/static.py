@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from coframe.course._sheet import Sheet
-from coframe.course.criteria.common import TOLERANCE, Task, differs, edge_of, run_program
+from coframe.course.criteria.common import TOLERANCE, Task, difference_text, read_edge, run_program
 from coframe.course.rubric import RUBRIC
 from coframe.transform.transform import Transform
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
@@ -44,7 +44,7 @@ def check(task: Task) -> Sheet:
             frames = {mount.frame for mount in task.assignment.mounts}
             world.wait_until(lambda: frames <= _group_by_child(late).keys(), _LATE_JOINER_TIME)
             world.run(0.3)
-        sent, repeated = _group_by_child(static), _repeated_transforms(_group_by_child(dynamic))
+        sent, repeated = _group_by_child(static), _find_repeated(_group_by_child(dynamic))
         missing = _WRONG_BROADCASTER_CAUSE if world.publishers_of("/tf") else "a misspelled child_frame_id"
         for mount in task.assignment.mounts:
             _check_mount(sheet, mount, sent.get(mount.frame) or repeated.get(mount.frame, []), missing)
@@ -60,7 +60,7 @@ def _group_by_child(received: list[Received]) -> dict[str, list[Any]]:
     return found
 
 
-def _repeated_transforms(sent: dict[str, list[Any]]) -> dict[str, list[Any]]:
+def _find_repeated(sent: dict[str, list[Any]]) -> dict[str, list[Any]]:
     """Return the transforms that were sent repeatedly; one sent only once on /tf may or may not arrive."""
     return {child: messages for child, messages in sent.items() if len(messages) > 1}
 
@@ -76,25 +76,25 @@ def _check_mount(sheet: Sheet, mount: Mount, messages: list[Any], missing: str) 
         read=_READ,
     )
     correct = Transform(mount.translation, mount.quaternion)
-    difference = differs(edge_of(messages[-1]), correct) if messages else "no transform"
-    norm = _norm(messages[-1]) if messages else 1.0
+    difference = difference_text(read_edge(messages[-1]), correct) if messages else "no transform"
+    norm = _quaternion_norm(messages[-1]) if messages else 1.0
     is_unit = abs(norm - 1.0) <= TOLERANCE
     sheet.check(
         3,
         f"{mount.frame} is at the correct position",
         1.0 if not difference and is_unit else 2 / 3 if not difference else 0.0,
-        expected=f"position {list(mount.translation)} m, rotation {_round(mount.quaternion)} (x, y, z, w)",
+        expected=f"position {list(mount.translation)} m, rotation {_round_values(mount.quaternion)} (x, y, z, w)",
         observed=difference or f"the quaternion has the length {norm:.6f} instead of 1",
         cause=_pose_cause(messages, mount) if difference else _NOT_UNIT_CAUSE,
         read="handbook chapter 2, rotations and quaternions",
     )
 
 
-def _round(values: tuple[float, ...]) -> list[float]:
+def _round_values(values: tuple[float, ...]) -> list[float]:
     return [round(value, 7) for value in values]
 
 
-def _norm(message: Any) -> float:
+def _quaternion_norm(message: Any) -> float:
     turned = message.transform.rotation
     return float(np.linalg.norm([turned.x, turned.y, turned.z, turned.w]))
 
@@ -103,18 +103,18 @@ def _pose_cause(messages: list[Any], mount: Mount) -> str:
     """Return the likely cause of a wrong pose."""
     if not messages:
         return "the transform is not sent"
-    pose = edge_of(messages[-1])
-    if not differs(pose, Transform(mount.translation)):
+    pose = read_edge(messages[-1])
+    if not difference_text(pose, Transform(mount.translation)):
         return "the rotation is missing: the quaternion is the identity"
     x, y, z, w = pose.quaternion.tolist()
     for quaternion, cause in (
         ((y, z, w, x), "the quaternion is in the order w, x, y, z; ROS uses x, y, z, w"),
         ((-x, -y, -z, w), "the rotation is inverted"),
     ):
-        if not differs(Transform(pose.translation, quaternion), Transform(mount.translation, mount.quaternion)):
+        if not difference_text(Transform(pose.translation, quaternion), Transform(mount.translation, mount.quaternion)):
             return cause
     inverse = Transform(mount.translation, mount.quaternion).inverse()
-    if not differs(pose, inverse):
+    if not difference_text(pose, inverse):
         return "the transform is inverted: it must be the pose of the sensor relative to its parent"
     return "values that differ from the assignment (lab.json, README.md)"
 
@@ -150,7 +150,7 @@ def _check_delivery(
     reached = [frame for frame in frames if frame in late]
     sheet.check(
         3,
-        "a listener that joins 5 s later receives them",
+        "a listener that joins 5 s later receives the transforms",
         len(reached) / len(frames),
         expected="all three transforms",
         observed=f"{len(reached)} of 3: {', '.join(reached) or 'none'}",
@@ -160,7 +160,7 @@ def _check_delivery(
     most = max((len(static.get(frame, [])) for frame in frames), default=0)
     sheet.check(
         1,
-        "they are sent once",
+        "the transforms are sent once",
         most == 1,
         expected="each transform is sent once",
         observed=f"sent {most} times in 5 s",

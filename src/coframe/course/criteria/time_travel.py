@@ -6,7 +6,7 @@ from __future__ import annotations
 from coframe.course._motion import SimulatedRobot
 from coframe.course._sheet import Sheet
 from coframe.course._world import STEP
-from coframe.course.criteria.common import Task, differs, mean_rate, pose_of, run_program, stamp_ns
+from coframe.course.criteria.common import Task, difference_text, mean_rate, read_pose, run_program, stamp_ns
 from coframe.course.rubric import RUBRIC
 from coframe.time import SECOND
 from geometry_msgs.msg import PoseStamped
@@ -60,7 +60,7 @@ def check(task: Task) -> Sheet:
             now = stamp_ns(each.message)
             then = now - _AGE
             correct = robot.base(now).inverse() @ robot.base(then) @ robot.end_effector(then)
-            wrong.append(differs(pose_of(each.message), correct, _INTERPOLATION_TOLERANCE))
+            wrong.append(difference_text(read_pose(each.message), correct, _INTERPOLATION_TOLERANCE))
         bad = [text for text in wrong if text]
         sheet.check(
             5,

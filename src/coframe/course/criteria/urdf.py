@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from coframe.course._motion import SimulatedRobot
 from coframe.course._sheet import Sheet
-from coframe.course.criteria.common import Task, differs, expanded_xacro
+from coframe.course.criteria.common import Task, difference_text, expanded_xacro
 from coframe.course.rubric import RUBRIC
 from coframe.course.submitted import is_submitted, read_submitted
 from coframe.errors import CoframeError
@@ -61,7 +61,7 @@ def _check_joints(sheet: Sheet, description: Description | None) -> None:
     names = [] if description is None else [each.name for each in description.joints.values() if each.type != "fixed"]
     sheet.check(
         2,
-        "it has the joints joint1 and joint2",
+        "the robot has the joints joint1 and joint2",
         sorted(names) == ["joint1", "joint2"],
         expected="two movable joints, joint1 and joint2",
         observed=f"movable joints: {', '.join(names) or 'none'}",
@@ -103,6 +103,6 @@ def _difference(robot: SimulatedRobot, description: Description | None, frame: s
             found = frames[frame] if root is None else root @ frames[frame]
         except (CoframeError, KeyError, ValueError) as error:
             return f"{frame} cannot be computed: {error}"
-        if difference := differs(found, correct):
+        if difference := difference_text(found, correct):
             return f"with joint angles {angles}: {difference}"
     return ""

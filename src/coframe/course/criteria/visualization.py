@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from coframe.analysis.tree import FrameTrees
 from coframe.course._sheet import Sheet
-from coframe.course.criteria.common import Task, edge_of, run_program
+from coframe.course.criteria.common import Task, read_edge, run_program
 from coframe.course.rubric import RUBRIC
 from coframe.course.submitted import read_submitted
 from coframe.errors import CourseError, ViewerError
@@ -84,7 +84,7 @@ def _check_configuration(sheet: Sheet, config: RvizConfig | str) -> None:
     )
     sheet.check(
         2,
-        "its fixed frame exists",
+        "the fixed frame exists",
         fixed in _FRAMES,
         expected="a frame of the tree, for example base_link",
         observed=f"fixed frame {fixed!r}",
@@ -130,7 +130,7 @@ def _check_tree(sheet: Sheet, edges: list[Any]) -> None:
 def _check_motion(sheet: Sheet, edges: list[Any]) -> None:
     moving = []
     for child in _MOVING_FRAMES:
-        poses = [edge_of(edge).matrix for edge in edges if edge.child_frame_id == child]
+        poses = [read_edge(edge).matrix for edge in edges if edge.child_frame_id == child]
         if len(poses) > 10 and abs(poses[-1] - poses[0]).max() > 1e-4:
             moving.append(child)
     sheet.check(

@@ -26,13 +26,13 @@ _PLAIN_NAME = re.compile(r"[\w./-]+")
 
 def find(observation: Observation) -> Iterator[Finding]:
     """Yield one finding per kind of problem."""
-    yield from _slashes(observation)
-    yield from _characters(observation)
-    yield from _near_duplicates(observation)
+    yield from _find_slashes(observation)
+    yield from _find_unusual_characters(observation)
+    yield from _find_near_duplicates(observation)
     yield from _incomplete_prefix(observation)
 
 
-def _slashes(observation: Observation) -> Iterator[Finding]:
+def _find_slashes(observation: Observation) -> Iterator[Finding]:
     transforms = observation.transforms
     sent = transforms.sent or transforms.names
     numbers = [number for number, name in enumerate(sent) if name.startswith("/") and name.lstrip("/")]
@@ -52,7 +52,7 @@ def _slashes(observation: Observation) -> Iterator[Finding]:
         )
 
 
-def _characters(observation: Observation) -> Iterator[Finding]:
+def _find_unusual_characters(observation: Observation) -> Iterator[Finding]:
     unusual = [frame for frame in observation.frames if not _PLAIN_NAME.fullmatch(frame)]
     if unusual:
         yield Finding(
@@ -65,7 +65,7 @@ def _characters(observation: Observation) -> Iterator[Finding]:
         )
 
 
-def _near_duplicates(observation: Observation) -> Iterator[Finding]:
+def _find_near_duplicates(observation: Observation) -> Iterator[Finding]:
     groups: dict[str, list[str]] = {}
     for frame in observation.frames:
         groups.setdefault(re.sub(r"[ _.-]", "", frame).lower(), []).append(frame)
@@ -86,7 +86,7 @@ def _incomplete_prefix(observation: Observation) -> Iterator[Finding]:
     if len(observation.trees) < 2:
         return
     for prefixed in observation.frames:
-        for plain in _without_prefixes(prefixed):
+        for plain in _names_without_prefixes(prefixed):
             roots = observation.roots.get(prefixed), observation.roots.get(plain)
             if roots[1] is not None and roots[0] != roots[1] and {prefixed, plain} & set(roots):
                 prefix = prefixed.removesuffix(plain)
@@ -102,7 +102,7 @@ def _incomplete_prefix(observation: Observation) -> Iterator[Finding]:
                 return
 
 
-def _without_prefixes(frame: str) -> Iterator[str]:
+def _names_without_prefixes(frame: str) -> Iterator[str]:
     """Yield ``b/c`` and ``c`` for ``a/b/c``."""
     for _ in range(_MAX_PREFIXES):
         _, slash, frame = frame.partition("/")

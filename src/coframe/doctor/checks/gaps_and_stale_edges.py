@@ -28,8 +28,8 @@ _MAX_SENSOR_EDGE_PERIOD = (
     110 * MILLISECOND
 )  # the same for an edge that sensors with a higher rate need: 10 Hz, and some jitter
 _MIN_RATE_RATIO = 2.0  # minimum ratio of the sensor rate to the edge rate; poses of the base concern every sensor
-_BASES = {"base_link", "base_footprint"}
-_CORRECTIONS = {"odom"}  # localization intentionally corrects map -> odom at a low rate
+_BASE_FRAMES = {"base_link", "base_footprint"}
+_CORRECTED_FRAMES = {"odom"}  # localization intentionally corrects map -> odom at a low rate
 _MIN_TRANSFORMS = 5  # minimum number of transforms to judge the rate and gaps
 # For these sensors, the robot's poses between two transforms matter.
 _SENSOR_TYPES = {
@@ -61,13 +61,13 @@ def find(observation: Observation) -> Iterator[Finding]:
 
 def _slow_edge(edge: Edge) -> Finding:
     command = static_command(*edge.key, edge.values[-1].tolist())
-    return _finding(
+    return _make_finding(
         [edge],
         Severity.NOTE if edge.constant else Severity.WARNING,
         f"published only every {duration(edge.period)}; a lookup at now() has to wait that long, or fails",
-        "Publish it at 10 Hz or more"
+        "Publish the transform at 10 Hz or more"
         + (
-            f"; because it never changes, publish it once as static: `{command}`."
+            f"; because the transform never changes, publish it once as static: `{command}`."
             if edge.constant
             else ": self.create_timer(0.02, self.broadcast)."
         ),
@@ -78,7 +78,7 @@ def _slow_edge(edge: Edge) -> Finding:
 def _edges_slower_than_sensors(observation: Observation, edges: list[Edge]) -> Iterator[Finding]:
     """Yield edges below 10 Hz that messages with a higher rate need."""
     edges = [edge for edge in edges if edge.period > _MAX_SENSOR_EDGE_PERIOD and not edge.constant]
-    edges = [edge for edge in edges if edge.child.rpartition("/")[2] not in _CORRECTIONS]
+    edges = [edge for edge in edges if edge.child.rpartition("/")[2] not in _CORRECTED_FRAMES]
     if not edges:
         return
     users = [
@@ -91,7 +91,7 @@ def _edges_slower_than_sensors(observation: Observation, edges: list[Edge]) -> I
         if len(sensor.stamp) >= _MIN_TRANSFORMS and sensor.type in _SENSOR_TYPES
     ]
     for edge in edges:
-        factor = 1.1 if edge.child.rpartition("/")[2] in _BASES else _MIN_RATE_RATIO
+        factor = 1.1 if edge.child.rpartition("/")[2] in _BASE_FRAMES else _MIN_RATE_RATIO
         faster = [
             (period, topic) for period, topic, path in users if 0 < period * factor < edge.period and edge in path
         ]
@@ -101,13 +101,13 @@ def _edges_slower_than_sensors(observation: Observation, edges: list[Edge]) -> I
 
 def _edge_slower_than_sensor(edge: Edge, period: float, topic: str) -> Finding:
     rate, sensor_rate = SECOND / edge.period, SECOND / period
-    return _finding(
+    return _make_finding(
         [edge],
         Severity.WARNING,
         f"published every {duration(edge.period)} ({rate:.3g} Hz), but {topic}, which needs it, every "
         f"{duration(period)} ({sensor_rate:.3g} Hz): its messages wait up to {duration(edge.period)} for the next "
         "transform, and their poses are interpolated",
-        "Publish it at 20 Hz or more, ideally at the rate of the sensor: "
+        "Publish the transform at 20 Hz or more, ideally at the rate of the sensor: "
         f"self.create_timer({min(0.05, period / SECOND):.3g}, self.broadcast), or raise the rate in the parameters of "
         "the node (publish_rate, frequency).",
         edge.first_stamp,
@@ -117,13 +117,14 @@ def _edge_slower_than_sensor(edge: Edge, period: float, topic: str) -> Finding:
 def _gap_finding(edges: list[Edge]) -> Finding:
     worst = max(edges, key=lambda edge: int(edge.intervals.max()))
     row = int(np.argmax(worst.intervals))
-    return _finding(
+    return _make_finding(
         edges,
         Severity.WARNING,
         f"a gap of {duration(int(worst.intervals.max()))}; the usual period is {duration(worst.period)}"
-        f"{_edge_list(edges)}; tf2 interpolates across the gap",
+        f"{_edges_text(edges)}; tf2 interpolates across the gap",
         "Find out what delayed the publisher: a blocking callback (time.sleep, a service call), an overloaded "
-        "processor, or a lossy network. Give its timer a dedicated thread (MultiThreadedExecutor).",
+        "processor, or a lossy network. Give the timer of the publisher its own callback group "
+        "(MultiThreadedExecutor).",
         int(np.unique(worst.stamp)[row]),
     )
 
@@ -132,20 +133,20 @@ def _stale_finding(observation: Observation, edges: list[Edge]) -> Finding:
     worst = max(edges, key=observation.silence)
     usual = f"; the usual period is {duration(worst.period)}" if worst.period else ""
     publishers = f" ({join_names(worst.publishers)})" if worst.publishers else ""
-    return _finding(
+    return _make_finding(
         edges,
         Severity.WARNING,
-        f"stale: no transform for the last {duration(observation.silence(worst))}{usual}{_edge_list(edges)}",
+        f"stale: no transform for the last {duration(observation.silence(worst))}{usual}{_edges_text(edges)}",
         f"Restart the publisher{publishers}. Until then, lookups at now() fail, and the latest transform is outdated.",
         int(worst.stamp[-1]),
     )
 
 
-def _edge_list(edges: list[Edge]) -> str:
+def _edges_text(edges: list[Edge]) -> str:
     return f" (on {len(edges)} edges: {join_names(edge.name for edge in edges)})" if len(edges) > 1 else ""
 
 
-def _finding(edges: list[Edge], severity: Severity, text: str, fix: str, stamp: int) -> Finding:
+def _make_finding(edges: list[Edge], severity: Severity, text: str, fix: str, stamp: int) -> Finding:
     return Finding(
         code=CODE,
         severity=severity,

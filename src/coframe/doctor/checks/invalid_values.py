@@ -25,7 +25,7 @@ CODE = "TF019"
 # Quaternions computed in single precision deviate less.
 _ROUNDING = 1e-6
 _MAX_DROPPED = 0.5  # of the transforms of an edge that can be left out without a question
-_NORMALIZE = "normalize it before publishing: q / numpy.linalg.norm(q)"
+_NORMALIZE_ADVICE = "normalize it before publishing: q / numpy.linalg.norm(q)"
 
 
 def find(observation: Observation) -> Iterator[Finding]:
@@ -54,25 +54,27 @@ def find(observation: Observation) -> Iterator[Finding]:
         Severity.ERROR,
         "{count} of {all} transforms have the quaternion 0, 0, 0, 0, which means that the rotation was not set; tf2 "
         "rejects them",
-        "Set it: t.transform.rotation.w = 1.0",
+        "Set the rotation: t.transform.rotation.w = 1.0",
     )
     yield from _kind(
         transforms,
         refused,
         Severity.ERROR,
-        "{count} of {all} transforms have a quaternion that is not normalized: its length is off by up to {off:.3g}; "
+        "{count} of {all} transforms have a quaternion that is not normalized: its length differs from 1 by up to "
+        "{off:.3g}; "
         "tf2 rejects them",
-        f"Check the order x, y, z, w, and {_NORMALIZE}.",
+        f"Check the order x, y, z, w, and {_NORMALIZE_ADVICE}.",
         explained=True,
     )
     yield from _kind(
         transforms,
         rounded,
         Severity.NOTE,
-        "{count} of {all} quaternions are not exactly normalized: their length is off by up to {off:.2g}; tf2 accepts "
+        "{count} of {all} quaternions are not exactly normalized: their length differs from 1 by up to {off:.2g}; "
+        "tf2 accepts "
         "them",
-        f"Use more digits (0.70710678 instead of 0.707), or {_NORMALIZE}.",
-        "The error grows along the chain, and other programs accept less than the half percent that tf2 accepts.",
+        f"Use more digits (0.70710678 instead of 0.707), or {_NORMALIZE_ADVICE}.",
+        "The error grows along the chain, and other programs are stricter than tf2, which accepts half a percent.",
     )
 
 

@@ -27,7 +27,7 @@ _WAIT = (
     "time: lookup_transform(target, source, stamp, timeout=Duration(seconds=0.1))."
 )
 # Messages of tf2, and the line to change.
-_FAILURES = (
+_KNOWN_FAILURES = (
     (re.compile(r"would require extrapolation (?:into the future|at time)", re.IGNORECASE), _WAIT),
     (
         re.compile(r"would require extrapolation into the past", re.IGNORECASE),
@@ -56,7 +56,7 @@ def _logged_errors(observation: Observation) -> Iterator[Finding]:
     middle = observation.start + observation.duration // 2
     by_kind: dict[tuple[str, int], list[ObservedLogLine]] = {}
     for line in observation.log:
-        for number, (pattern, _) in enumerate(_FAILURES):
+        for number, (pattern, _) in enumerate(_KNOWN_FAILURES):
             if pattern.search(line.text):
                 by_kind.setdefault((line.node, number), []).append(line)
                 break
@@ -65,8 +65,8 @@ def _logged_errors(observation: Observation) -> Iterator[Finding]:
             yield Finding(
                 code=CODE,
                 severity=Severity.WARNING,
-                text=f"{node} logged {len(lines)} failed lookups, the last one: {_short(lines[-1].text)}",
-                fix=f"In {node}: {_FAILURES[number][1]}",
+                text=f"{node} logged {len(lines)} failed lookups, the last one: {_truncate(lines[-1].text)}",
+                fix=f"In {node}: {_KNOWN_FAILURES[number][1]}",
                 topic="/rosout",
                 frames=frozenset(frame for frame in observation.frames if frame in _names(lines[-1].text)),
                 publishers=(node,),
@@ -94,8 +94,8 @@ def _bursts(observation: Observation) -> Iterator[Finding]:
                 text=f"no transform was received for {duration(pause)}, followed by a burst of {len(burst)} "
                 f"transforms that "
                 "had been published in the meantime: the recorder or its network connection was blocked",
-                fix="Record fewer topics (`coframe record /tf /tf_static ...`), or use a faster disk. In this "
-                "recording, lookups by receive time are wrong there; lookups by stamp are correct.",
+                fix="Record fewer topics (`coframe record /tf /tf_static ...`), or use a faster disk. In this part "
+                "of the recording, lookups by receive time are wrong; lookups by stamp are correct.",
                 first_stamp=int(burst.min()),
             )
             return
@@ -105,6 +105,6 @@ def _names(text: str) -> set[str]:
     return set(re.findall(r"[\w/.-]+", text))
 
 
-def _short(text: str) -> str:
+def _truncate(text: str) -> str:
     line = " ".join(text.split())
     return line if len(line) <= 160 else f"{line[:157]}..."

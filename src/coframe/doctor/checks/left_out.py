@@ -25,7 +25,8 @@ def find(observation: Observation) -> Iterator[Finding]:
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
-            text=f"{observation.messages_ignored} messages were ignored: there are too many frame names",
+            text=f"{observation.messages_ignored} messages were ignored, because they exceed the maximum number of "
+            f"frame names",
             fix="Find the publisher that keeps creating frame names. This report covers only earlier messages.",
             harm="Every buffer grows with each new frame name, for as long as its process runs.",
         )
@@ -33,7 +34,8 @@ def find(observation: Observation) -> Iterator[Finding]:
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
-            text=f"{observation.topics_ignored} topics were not examined: there are too many",
+            text=f"{observation.topics_ignored} topics were not examined, because they exceed the maximum number of "
+            f"topics",
             fix="Find the node that keeps creating topics. This report covers only earlier topics.",
             harm="Every participant stores each announced topic, for as long as it is published.",
         )
@@ -42,7 +44,7 @@ def find(observation: Observation) -> Iterator[Finding]:
             code=CODE,
             severity=Severity.NOTE,
             text=f"only the transforms of the last {duration(observation.end - observation.transforms_since)} were "
-            "examined: there are too many",
+            "examined, because more exceed the memory limit",
             fix=_ADVICE,
             harm="This report does not contain problems that ended before that time.",
         )
@@ -50,7 +52,8 @@ def find(observation: Observation) -> Iterator[Finding]:
         yield Finding(
             code=CODE,
             severity=Severity.NOTE,
-            text=f"some messages of {join_names(observation.incomplete)} were not examined: there are too many",
+            text=f"some messages of {join_names(observation.incomplete)} were not examined, because they exceed the "
+            f"memory limit",
             fix=_ADVICE,
             harm="This report does not contain problems with these messages.",
         )

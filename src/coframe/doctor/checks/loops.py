@@ -32,7 +32,7 @@ def find(observation: Observation) -> Iterator[Finding]:
             code=CODE,
             severity=Severity.WARNING,
             text=f"{observation.damaged_messages} messages are not valid TFMessages",
-            fix="Find the program that publishes these bytes on the topic, or copy the recording again.",
+            fix="Find the program that publishes these bytes on the topic. If the recording is damaged, copy it again.",
             harm="Listeners discard such messages, and the transforms in them are lost.",
         )
     if observation.empty_messages:
@@ -40,8 +40,8 @@ def find(observation: Observation) -> Iterator[Finding]:
             code=CODE,
             severity=Severity.NOTE,
             text=f"a message without transforms was published {times(observation.empty_messages)}",
-            fix="This is harmless. To avoid it: `if transforms: broadcaster.sendTransform(transforms)`.",
-            harm="Listeners process it without effect.",
+            fix="Empty messages are harmless. To avoid them: `if transforms: broadcaster.sendTransform(transforms)`.",
+            harm="Listeners process the message without effect.",
         )
 
 

@@ -26,7 +26,7 @@ _FIX = (
     "In a simulation, start every node with --ros-args -p use_sim_time:=true; on a real robot, none, and synchronize "
     "the clocks of its machines (chronyc tracking). Replay a recording with its own clock (`coframe play BAG --clock`)."
 )
-_FIX_WITH_HOURS = (
+_TIME_ZONE_FIX = (
     "The difference is a number of whole hours: check the node for a local time that is used as UTC, and the time zone "
     "of its machine."
 )
@@ -44,7 +44,7 @@ def find(observation: Observation) -> Iterator[Finding]:
     for clock in sorted(by_clock.keys() - {usual}, key=lambda clock: (-len(by_clock[clock]), clock)):
         yield _finding(observation, usual, by_clock[usual], clock, by_clock[clock])
     if by_clock:
-        yield from _static(observation, usual)
+        yield from _find_static_offsets(observation, usual)
 
 
 def _finding(observation: Observation, usual: str, usual_names: list[str], clock: str, names: list[str]) -> Finding:
@@ -64,7 +64,7 @@ def _finding(observation: Observation, usual: str, usual_names: list[str], clock
         + (
             "Start these nodes with --ros-args -p use_sim_time:=true."
             if should_be_simulated
-            else _FIX_WITH_HOURS
+            else _TIME_ZONE_FIX
             if _is_whole_hours(observation.offset(names[0]).offset)
             else _FIX
         ),
@@ -91,7 +91,7 @@ def _repair(
     return (rules, ()) if all(_is_whole_hours(offset) for _, offset in offsets) else ((), rules)
 
 
-def _static(observation: Observation, usual: str) -> Iterator[Finding]:
+def _find_static_offsets(observation: Observation, usual: str) -> Iterator[Finding]:
     """Yield a note for static transforms: tf2 ignores their stamps, but their publishers use another clock."""
     moving = [edge for edge in observation.dynamic if observation.clocks.get(edge.name) == usual]
     if not moving or usual == "wall":
@@ -147,5 +147,5 @@ def _is_whole_hours(offset: float) -> bool:
 
 def _clock_name(clock: str) -> str:
     return {"wall": "the system clock", "simulated": "simulated time"}.get(
-        clock, "a clock that is off the system clock"
+        clock, "a clock that differs from the system clock"
     )

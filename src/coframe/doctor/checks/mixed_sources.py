@@ -51,12 +51,12 @@ def find(observation: Observation) -> Iterator[Finding]:
     found = set()
     for topic, sensors in topics.items():
         nodes = tuple(dict.fromkeys(node for sensor in sensors for node in sensor.publishers))
-        if _alternate(sensors, [np.full(len(sensor.stamp), number) for number, sensor in enumerate(sensors)]):
+        if _do_alternate(sensors, [np.full(len(sensor.stamp), number) for number, sensor in enumerate(sensors)]):
             found.add(topic)
             names = join_names(f"{sensor.frame!r} ({count(len(sensor.stamp), 'message')})" for sensor in sensors)
             drops = tuple(f"drop-publisher {topic}@{sensor.frame}" for sensor in sensors)
             yield _finding(topic, f"the messages alternate between {len(sensors)} frames: {names}", nodes, drops)
-        elif len(nodes) > 1 and _alternate(sensors, [_nodes(sensor, nodes) for sensor in sensors]):
+        elif len(nodes) > 1 and _do_alternate(sensors, [_nodes(sensor, nodes) for sensor in sensors]):
             found.add(topic)
             yield _finding(topic, f"the messages alternate between {len(nodes)} publishers: {join_names(nodes)}", nodes)
     for one in observation.positions:
@@ -72,7 +72,7 @@ def _nodes(sensor: Sensor, nodes: tuple[str, ...]) -> NDArray[np.int64]:
     return numbers[np.maximum(sensor.source[known], 0)]
 
 
-def _alternate(sensors: list[Sensor], sources: list[NDArray[np.int64]]) -> bool:
+def _do_alternate(sensors: list[Sensor], sources: list[NDArray[np.int64]]) -> bool:
     """Return whether the sources of the messages change again and again."""
     order = np.argsort(np.concatenate([sensor.arrived for sensor in sensors]), kind="stable")
     changes = np.count_nonzero(np.diff(np.concatenate(sources)[order]))

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF023"
-_HARM = "The published pose is wrong: collision checks and displays show a robot that differs from the real one."
+_CONSEQUENCE = "The published pose is wrong: collision checks and displays show a robot that differs from the real one."
 _ONE_PUBLISHER = (
     "Publish the links of the robot description only with robot_state_publisher, and stop the other publisher of this "
     "transform; or correct <origin> in the URDF, and restart robot_state_publisher after the change."
@@ -114,9 +114,9 @@ def find(observation: Observation) -> Iterator[Finding]:
             code=CODE,
             severity=Severity.WARNING,
             text=f"differs from joint {name!r} of the robot description by {found.text} (median of {found.compared})"
-            + _agreement(found),
+            + _agreement_text(found),
             fix=_ONE_PUBLISHER if found.mistake is None else f"{found.mistake.fix} Or: {_ONE_PUBLISHER}",
-            harm=_HARM if found.mistake else "",
+            harm=_CONSEQUENCE if found.mistake else "",
             edge=edge.key,
             first_stamp=edge.first_stamp,
             publishers=edge.publishers,
@@ -184,30 +184,31 @@ def _mount(edge: Edge, joint: str, expected: Transform, found: _Difference) -> F
     return Finding(
         code=CODE,
         severity=Severity.WARNING,
-        text=f"differs from {joint} of the robot description by {found.text}: published {_describe_pose(published)}, "
-        f"described {_describe_pose(expected)}{_agreement(found)}",
-        fix=(found.mistake.fix if found.mistake else "Decide which pose is right.")
-        + " If that of the robot description is right, let only robot_state_publisher publish "
-        f"it (its values: `{static_command(*edge.key, pose)}`); otherwise correct <origin> in the URDF to "
-        f"{_origin(published)}, and restart robot_state_publisher.",
-        harm=_HARM if found.mistake else "",
+        text=f"differs from {joint} of the robot description by {found.text}: published {_pose_text(published)}, "
+        f"described {_pose_text(expected)}{_agreement_text(found)}",
+        fix=(found.mistake.fix if found.mistake else "Decide which pose is correct.")
+        + " If the pose of the robot description is correct, publish it only with "
+        f"robot_state_publisher (its values: `{static_command(*edge.key, pose)}`); otherwise correct <origin> in "
+        f"the URDF to "
+        f"{_origin_attributes(published)}, and restart robot_state_publisher.",
+        harm=_CONSEQUENCE if found.mistake else "",
         edge=edge.key,
         first_stamp=edge.first_stamp,
         publishers=edge.publishers,
     )
 
 
-def _agreement(found: _Difference) -> str:
+def _agreement_text(found: _Difference) -> str:
     return f"; {found.mistake.text('it')}" if found.mistake is not None else ""
 
 
-def _describe_pose(pose: Transform) -> str:
+def _pose_text(pose: Transform) -> str:
     x, y, z = _numbers(pose.translation, 4)
     roll, pitch, yaw = _numbers(np.degrees(pose.rpy), 2)
     return f"x {x}, y {y}, z {z} m, roll {roll}, pitch {pitch}, yaw {yaw} degrees"
 
 
-def _origin(pose: Transform) -> str:
+def _origin_attributes(pose: Transform) -> str:
     return f'xyz="{" ".join(_numbers(pose.translation, 6))}" rpy="{" ".join(_numbers(pose.rpy, 6))}"'
 
 

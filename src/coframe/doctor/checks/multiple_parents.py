@@ -38,7 +38,7 @@ def find(observation: Observation) -> Iterator[Finding]:
 def _finding(child: str, edges: list[Edge]) -> Finding:
     changes = _changes(edges)
     disagree = changes >= _CHANGES or any(edge.static for edge in edges)
-    parents = "; ".join(f"{edge.parent!r} {times(edge.count)} ({_source(edge)})" for edge in edges)
+    parents = "; ".join(f"{edge.parent!r} {times(edge.count)} ({_source_text(edge)})" for edge in edges)
     latest = max(edges, key=lambda edge: int(edge.arrived[-1]))
     others = [edge for edge in edges if edge.parent != latest.parent]
     return Finding(
@@ -67,6 +67,6 @@ def _changes(edges: list[Edge]) -> int:
     return int(np.count_nonzero(np.diff(parent[np.argsort(arrived, kind="stable")])))
 
 
-def _source(edge: Edge) -> str:
+def _source_text(edge: Edge) -> str:
     topic = "static" if edge.static else "dynamic"
     return f"{topic}, from {join_names(edge.publishers)}" if edge.publishers else topic

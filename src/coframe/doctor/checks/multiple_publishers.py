@@ -61,7 +61,7 @@ def _cause(edge: Edge) -> str:
     """Return a clause with the mistake that explains the difference between two publishers of a static transform."""
     last = [np.flatnonzero(edge.publisher == number)[-1:] for number in dict.fromkeys(edge.publisher.tolist())]
     first, second = map(edge.poses, last[:2])
-    explained = explain_either(first, second)
+    explained = explain_mutual_difference(first, second)
     if explained is None:
         return ""
     mistake, in_first = explained

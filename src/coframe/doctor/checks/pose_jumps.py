@@ -56,17 +56,20 @@ def _jumps(edge: Edge) -> Iterator[Finding]:
     seconds = np.maximum(np.abs(edge.steps), 1) / SECOND
     far = (edge.distances > _MIN_DISTANCE) & (edge.distances > _MIN_STEP_RATIO * np.median(edge.distances))
     far &= edge.distances / seconds > _MIN_SPEED
-    turned = (edge.turns > _MIN_ANGLE) & (edge.turns > _MIN_STEP_RATIO * np.median(edge.turns))
-    turned &= edge.turns / seconds > _MIN_ANGULAR_SPEED
+    turned = (edge.rotation_steps > _MIN_ANGLE) & (
+        edge.rotation_steps > _MIN_STEP_RATIO * np.median(edge.rotation_steps)
+    )
+    turned &= edge.rotation_steps / seconds > _MIN_ANGULAR_SPEED
     rows = np.flatnonzero(far | turned)
     if not len(rows):
         return
-    worst = int(rows[np.argmax(edge.distances[rows] + edge.turns[rows])])
+    worst = int(rows[np.argmax(edge.distances[rows] + edge.rotation_steps[rows])])
     cause = jump_cause(edge, rows)
     yield Finding(
         code=CODE,
         severity=Severity.WARNING,
-        text=f"jumps {times(len(rows))}, at worst {edge.distances[worst]:.3g} m and {degrees(edge.turns[worst]):.3g} "
+        text=f"jumps {times(len(rows))}, at worst {edge.distances[worst]:.3g} m and "
+        f"{degrees(edge.rotation_steps[worst]):.3g} "
         f"degrees within {seconds[worst] * 1e3:.3g} ms"
         + (f"; after the jump, {cause.text('that before')}" if cause else ""),
         fix=cause.fix

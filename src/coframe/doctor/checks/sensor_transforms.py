@@ -29,7 +29,7 @@ CODE = "TF014"
 _MAX_WAIT = 200 * MILLISECOND
 _MAX_MISSING_SHARE = 0.05
 _MIN_MESSAGES = 5
-_USUAL_ENDINGS = ("_link", "_frame", "_footprint")
+_USUAL_SUFFIXES = ("_link", "_frame", "_footprint")
 
 
 def find(observation: Observation) -> Iterator[Finding]:
@@ -43,10 +43,10 @@ def find(observation: Observation) -> Iterator[Finding]:
         elif len(sensor.stamp):
             yield from _late_transforms(observation, sensor)
     for frame, sensors in unknown.items():
-        yield _unknown_frame(observation, frame, sensors)
+        yield _unknown_frame_finding(observation, frame, sensors)
 
 
-def _unknown_frame(observation: Observation, frame: str, sensors: list[Sensor]) -> Finding:
+def _unknown_frame_finding(observation: Observation, frame: str, sensors: list[Sensor]) -> Finding:
     similar = similar_frames(frame, observation.frames)
     publishers = tuple(dict.fromkeys(sensor.publisher for sensor in sensors if sensor.publisher))
     messages = sum(len(sensor.stamp) for sensor in sensors)
@@ -57,7 +57,9 @@ def _unknown_frame(observation: Observation, frame: str, sensors: list[Sensor]) 
         text=f"{count(messages, 'message')} of {join_names(sensor.topic for sensor in sensors)} "
         f"{'is' if messages == 1 else 'are'} expressed in frame {frame!r}, but no transform connects {frame!r} to the "
         f"tree" + (f"; did you mean {similar[0]!r}?" if similar else ""),
-        fix=_one_name(observation, frame, similar[0]) if similar else _missing_frame(observation, frame, publishers),
+        fix=_same_name_advice(observation, frame, similar[0])
+        if similar
+        else _missing_frame_advice(observation, frame, publishers),
         topic=sensors[0].topic,
         frames=frozenset({frame}),
         first_stamp=int(sensors[0].stamp[0]) if len(sensors[0].stamp) else None,
@@ -81,11 +83,11 @@ def _misspelled(observation: Observation, frame: str, similar: str) -> tuple[str
     The name of a link in a robot description is right, and then one with a usual ending.
     """
     described = [f'"{frame}"' in text and f'"{similar}"' not in text for text in observation.descriptions]
-    is_usual = frame.endswith(_USUAL_ENDINGS) and not similar.endswith(_USUAL_ENDINGS)
+    is_usual = frame.endswith(_USUAL_SUFFIXES) and not similar.endswith(_USUAL_SUFFIXES)
     return (similar, frame) if is_usual or any(described) else (frame, similar)
 
 
-def _one_name(observation: Observation, frame: str, similar: str) -> str:
+def _same_name_advice(observation: Observation, frame: str, similar: str) -> str:
     """Return advice about a message's frame whose name differs in a few letters from a frame in the tree.
 
     Either of the two may be misspelled. A name with the usual ending is probably the right one.
@@ -101,7 +103,7 @@ def _one_name(observation: Observation, frame: str, similar: str) -> str:
     )
 
 
-def _missing_frame(observation: Observation, frame: str, publishers: tuple[str, ...]) -> str:
+def _missing_frame_advice(observation: Observation, frame: str, publishers: tuple[str, ...]) -> str:
     """Return advice about a frame that no transform contains; only sensors can be mounted statically."""
     prefix, slash, name = frame.rpartition("/")
     root = next(iter(observation.trees))
@@ -131,7 +133,7 @@ def _missing_frame(observation: Observation, frame: str, publishers: tuple[str, 
 
 def _late_transforms(observation: Observation, sensor: Sensor) -> Iterator[Finding]:
     waits = observation.waits(sensor)
-    counted = _countable(observation, sensor)
+    counted = _find_countable(observation, sensor)
     missing = np.flatnonzero(counted & (waits > _MAX_WAIT))
     if np.count_nonzero(counted) < _MIN_MESSAGES or len(missing) <= _MAX_MISSING_SHARE * np.count_nonzero(counted):
         return
@@ -160,7 +162,7 @@ def _late_transforms(observation: Observation, sensor: Sensor) -> Iterator[Findi
     )
 
 
-def _countable(observation: Observation, sensor: Sensor) -> NDArray[np.bool_]:
+def _find_countable(observation: Observation, sensor: Sensor) -> NDArray[np.bool_]:
     """Return which messages arrived after the first transform, and early enough for a later one, (N,)."""
     edges = [edge for edge in observation.path(sensor.frame) if not edge.static]
     if not edges:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF001"
-_MIN_ALIKE = 3  # trees that one finding lists
+_MIN_SIMILAR_TREES = 3  # trees that one finding lists
 _MAX_TREES = 50  # Robots have fewer.
 
 
@@ -30,13 +30,15 @@ def find(observation: Observation) -> Iterator[Finding]:
     for edge in observation.edges:
         by_root.setdefault(observation.root(edge.child), []).append(edge)
     tried = others[:_MAX_TREES]
-    likely = {root: missing_edge(_from_root(observation, main), _from_root(observation, root)) for root in tried}
+    likely = {
+        root: missing_edge(_frames_from_root(observation, main), _frames_from_root(observation, root)) for root in tried
+    }
     unknown = [root for root in others if likely.get(root) is None]
-    if len(unknown) >= _MIN_ALIKE:
-        yield _several(observation, main, unknown, by_root)
+    if len(unknown) >= _MIN_SIMILAR_TREES:
+        yield _several_trees_finding(observation, main, unknown, by_root)
     for root in others:
         missing = likely.get(root)
-        if missing is None and len(unknown) >= _MIN_ALIKE:
+        if missing is None and len(unknown) >= _MIN_SIMILAR_TREES:
             continue
         members = [frame for frame in observation.trees[root] if frame != root]
         below = f" with {join_names(members)}" if members else ""
@@ -44,7 +46,7 @@ def find(observation: Observation) -> Iterator[Finding]:
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
-            text=f"{_trees(observation, main)}, and {root!r}{below}; "
+            text=f"{_trees_text(observation, main)}, and {root!r}{below}; "
             + (missing.text if missing else f"no transform to {root!r} is published"),
             fix=missing.fix if missing else unknown_mount(root),
             frames=frozenset({root, *observation.trees[root]}),
@@ -53,14 +55,16 @@ def find(observation: Observation) -> Iterator[Finding]:
         )
 
 
-def _several(observation: Observation, main: str, roots: list[str], by_root: dict[str, list[Edge]]) -> Finding:
+def _several_trees_finding(
+    observation: Observation, main: str, roots: list[str], by_root: dict[str, list[Edge]]
+) -> Finding:
     """Return one finding for several trees that no likely edge connects with the largest one."""
     edges = [edge for root in roots for edge in by_root.get(root, [])]
     creates = "; a publisher may keep creating frame names" if len(roots) > _MAX_TREES else ""
     return Finding(
         code=CODE,
         severity=Severity.WARNING,
-        text=f"{_trees(observation, main)}, and {len(roots)} trees to whose roots no transform is published: "
+        text=f"{_trees_text(observation, main)}, and {len(roots)} trees to whose roots no transform is published: "
         f"{join_quoted(roots)}{creates}",
         fix="Find the publisher that creates new frame names, or connect the frames of one robot to one root."
         if creates
@@ -71,10 +75,10 @@ def _several(observation: Observation, main: str, roots: list[str], by_root: dic
     )
 
 
-def _trees(observation: Observation, main: str) -> str:
+def _trees_text(observation: Observation, main: str) -> str:
     below = count(len(observation.trees[main]) - 1, "frame")
     return f"{len(observation.trees)} separate trees: {main!r} with {below} below it"
 
 
-def _from_root(observation: Observation, root: str) -> list[str]:
+def _frames_from_root(observation: Observation, root: str) -> list[str]:
     return [root, *(frame for frame in observation.trees[root] if frame != root)]

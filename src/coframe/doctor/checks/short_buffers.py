@@ -42,7 +42,7 @@ def find(observation: Observation) -> Iterator[Finding]:
             code=CODE,
             severity=Severity.WARNING,
             text=f"{len(late)} of {len(sensor.stamp)} messages arrive up to {duration(int(behind.max()))} after their "
-            f"stamps, but a buffer keeps transforms for only {duration(observation.cache)}",
+            f"stamps, but a buffer stores transforms for only {duration(observation.cache)}",
             fix=f"Use a longer cache: tf2_ros.Buffer(cache_time=Duration(seconds={need})) or "
             f"coframe.Buffer(cache='{need}s'); or reduce the processing time of the sensor data.",
             topic=sensor.topic,

@@ -55,7 +55,7 @@ def find(observation: Observation) -> Iterator[Finding]:
             severity=Severity.NOTE
             if all(observation.topics[topic].type == _COMPUTED_TYPE for topic in topics)
             else Severity.WARNING,
-            text=f"it has a publisher, but {nothing}"
+            text=f"the topic has a publisher, but {nothing}"
             if len(topics) == 1
             else f"{len(topics)} topics have a publisher, but {nothing}: {join_names(topics)}",
             fix=f"Look at the output of {node}: is its device connected, does it wait for another topic, for a "

@@ -63,7 +63,7 @@ def _unset_stamps(edge: Edge) -> Finding:
     return Finding(
         code=CODE,
         severity=Severity.WARNING,
-        text=f"the stamp was never set: {edge.unset} of {edge.count} transforms have the stamp 0",
+        text=f"the stamp was never set: {edge.unset_count} of {edge.count} transforms have the stamp 0",
         fix="Add the line: t.header.stamp = self.get_clock().now().to_msg(). If the line exists, the node has "
         "use_sim_time:=true but no simulation publishes /clock, so its time stays 0.",
         harm="A transform with the stamp 0 belongs to the year 1970: lookups at now() or at the stamp of a sensor "

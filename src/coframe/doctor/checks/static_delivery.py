@@ -9,7 +9,7 @@ import numpy as np
 
 from coframe._output.formatting import duration, join_names, times
 from coframe.doctor._finding import Finding, Severity
-from coframe.doctor.pose_mistakes import explain_either
+from coframe.doctor.pose_mistakes import explain_mutual_difference
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF016"
-_BROADCASTER = (
+_BROADCASTER_ADVICE = (
     "Use tf2_ros.StaticTransformBroadcaster(node), or QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)."
 )
 
@@ -36,11 +36,11 @@ def find(observation: Observation) -> Iterator[Finding]:
                 yield _publisher(facts.name, endpoint.node)
         for endpoint in facts.subscribers:
             if not endpoint.transient_local:
-                yield _subscriber(facts.name, endpoint.node)
+                yield _subscriber_finding(facts.name, endpoint.node)
     if observation.live:
         yield from _overwritten_statics(observation)
     for edge in observation.static:
-        yield from _outdated_statics(edge)
+        yield from _find_outdated_statics(edge)
 
 
 def _publisher(topic: str, node: str) -> Finding:
@@ -51,16 +51,16 @@ def _publisher(topic: str, node: str) -> Finding:
         if node
         else f"a publisher of {topic} offered durability volatile: listeners with the QoS of tf2 received nothing from "
         "it, and receive nothing when the recording is replayed with the recorded QoS",
-        fix=_BROADCASTER
+        fix=_BROADCASTER_ADVICE
         if node
-        else f"{_BROADCASTER} On the running robot, `coframe doctor` names the node. Replay this recording with "
+        else f"{_BROADCASTER_ADVICE} On the running robot, `coframe doctor` names the node. Replay this recording with "
         "`coframe play`, which publishes static transforms with durability transient local.",
         topic=topic,
         publishers=(node,) if node else (),
     )
 
 
-def _subscriber(topic: str, node: str) -> Finding:
+def _subscriber_finding(topic: str, node: str) -> Finding:
     return Finding(
         code=CODE,
         severity=Severity.WARNING,
@@ -97,7 +97,7 @@ def _overwritten_statics(observation: Observation) -> Iterator[Finding]:
             )
 
 
-def _outdated_statics(edge: Edge) -> Iterator[Finding]:
+def _find_outdated_statics(edge: Edge) -> Iterator[Finding]:
     """Yield an edge whose messages have very different delays: a process that repeats a message renews its stamp."""
     has_stamp = edge.stamp != 0
     stamps, lags = edge.stamp[has_stamp], edge.arrived[has_stamp] - edge.stamp[has_stamp]
@@ -108,7 +108,7 @@ def _outdated_statics(edge: Edge) -> Iterator[Finding]:
         severity=Severity.NOTE if edge.constant else Severity.WARNING,
         text=f"published {times(len(stamps))} with stamps up to {duration(int(stamps.max() - stamps.min()))} apart"
         + (" and equal values" if edge.constant else f" and different values{_cause(edge)}")
-        + ": the older ones are from processes that were started earlier and are still running",
+        + ": processes that were started earlier are still running and publish the older ones",
         harm="A late joiner receives the message of each of these processes; if their values differ, the one that "
         "arrives last is used.",
         fix="Stop the older processes: find them with `ps` (static_transform_publisher, robot_state_publisher).",
@@ -121,7 +121,7 @@ def _outdated_statics(edge: Edge) -> Iterator[Finding]:
 def _cause(edge: Edge) -> str:
     """Return a clause with the mistake that explains how the last value differs from the one before it."""
     different = np.flatnonzero((edge.values != edge.values[-1]).any(axis=1))
-    explained = explain_either(edge.last_pose, edge.poses(different[-1:]))
+    explained = explain_mutual_difference(edge.last_pose, edge.poses(different[-1:]))
     if explained is None:
         return ""
     mistake, is_last = explained

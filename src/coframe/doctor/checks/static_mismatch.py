@@ -38,8 +38,8 @@ def find(observation: Observation) -> Iterator[Finding]:
             yield Finding(
                 code=CODE,
                 severity=Severity.NOTE,
-                text=f"constant in all {edge.count} transforms on /tf; if it never changes, it should be static",
-                fix=f"Publish it once: `{command}`; in code use StaticTransformBroadcaster(self) instead of "
+                text=f"constant in all {edge.count} transforms on /tf; an edge that never changes should be static",
+                fix=f"Publish the edge once: `{command}`; in code use StaticTransformBroadcaster(self) instead of "
                 "TransformBroadcaster(self), without a timer.",
                 edge=edge.key,
                 first_stamp=edge.first_stamp,
@@ -53,7 +53,7 @@ def find(observation: Observation) -> Iterator[Finding]:
                 severity=Severity.WARNING,
                 text=f"changed {changes} times on /tf_static; each change also applies to the past, and nothing is "
                 "interpolated",
-                fix="Publish it as a dynamic transform: TransformBroadcaster(self) instead of "
+                fix="Publish a dynamic transform: TransformBroadcaster(self) instead of "
                 "StaticTransformBroadcaster(self), stamped with the time of the measurement.",
                 edge=edge.key,
                 first_stamp=edge.first_stamp,

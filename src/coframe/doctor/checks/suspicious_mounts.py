@@ -30,7 +30,7 @@ _ROUND_DEGREES = (30, 45, 60, 90, 120, 135, 150, 180, 270)
 _MAX_ERROR_ONE_AXIS = 2e-5  # radians, of a rotation about one axis
 _MAX_ERROR_SEVERAL_AXES = 5e-7  # radians, of one of several angles
 _UNITS = (("mm", 1e3), ("cm", 1e2))
-_MIN_MOUNT = 5e-3  # meters
+_MIN_MOUNT_DISTANCE = 5e-3  # meters
 _MIN_HEIGHT = -0.5  # meters; a sensor cannot be this far below the ground
 _MAX_PLANAR_DEVIATION = 0.2  # meters, and twice the sine of half an angle
 _MIN_ROTATION = 1e-3  # radians
@@ -39,7 +39,7 @@ _CAMERA_AND_LIDAR_TYPES = {
     for name in ("CameraInfo", "CompressedImage", "Image", "LaserScan", "MultiEchoLaserScan", "PointCloud2")
 }
 _MAX_DISTANCE = 10.0  # meters between two frames of a robot
-_MIN_ABSURD_DISTANCE = 1e6  # meters; it would be a kilometer in millimeters
+_MIN_IMPOSSIBLE_DISTANCE = 1e6  # meters; it would be a kilometer in millimeters
 _WORLD_FRAMES = ("world", "map", "odom", "earth", "utm", "ecef", "enu", "global", "ned")
 
 
@@ -48,12 +48,12 @@ def find(observation: Observation) -> Iterator[Finding]:
     mounts = [edge for edge in observation.edges if edge.static or edge.constant]
     for edge in mounts:
         turned = list(_wrong_optical_axes(observation, edge)) if is_optical(edge) else []
-        yield from turned or _degrees_as_radians(edge)
-        yield from _other_units(edge, mounts)
-    yield from _below_ground(observation)
+        yield from turned or _find_degrees_as_radians(edge)
+        yield from _find_other_units(edge, mounts)
+    yield from _find_below_ground(observation)
 
 
-def _degrees_as_radians(edge: Edge) -> Iterator[Finding]:
+def _find_degrees_as_radians(edge: Edge) -> Iterator[Finding]:
     """Yield a finding for an angle that is a round number of degrees used as radians."""
     axes = np.abs(edge.rotations[-1, :3]) > 1e-6
     if np.count_nonzero(axes) == 1:
@@ -61,7 +61,7 @@ def _degrees_as_radians(edge: Edge) -> Iterator[Finding]:
         angles = [np.where(axes, 2.0 * np.arctan2(x, w), 0.0)]
         limit = _MAX_ERROR_ONE_AXIS
     else:
-        angles, limit = [triple[0] for triple in angle_triples(edge.rotations[-1:])], _MAX_ERROR_SEVERAL_AXES
+        angles, limit = [triple[0] for triple in all_rpy_angles(edge.rotations[-1:])], _MAX_ERROR_SEVERAL_AXES
     for triple in angles:
         for name, axis, angle in zip(("roll", "pitch", "yaw"), "xyz", triple.tolist(), strict=True):
             for number in (sign * size for size in _ROUND_DEGREES for sign in (1, -1)):
@@ -83,13 +83,13 @@ def _with_angle(edge: Edge, angles: NDArray[np.float64], axis: int, angle: float
     return np.concatenate([edge.values[-1, :3], quaternion.from_rpy(angles)])
 
 
-def _other_units(edge: Edge, mounts: list[Edge]) -> Iterator[Finding]:
+def _find_other_units(edge: Edge, mounts: list[Edge]) -> Iterator[Finding]:
     """Yield a finding for a mount that is farther from its parent than any part of a robot."""
-    if edge.length < _MAX_DISTANCE or _is_in_world(edge):
+    if edge.length < _MAX_DISTANCE or _is_world_edge(edge):
         return
-    if edge.length > _MIN_ABSURD_DISTANCE:
+    if edge.length > _MIN_IMPOSSIBLE_DISTANCE:
         distance = f"the frames are {edge.length:.4g} m apart"
-        yield _finding(edge, distance, "Check the values of the translation; they are in meters.")
+        yield _finding(edge, distance, "Check the values of the translation, which must be in meters.")
         return
     units = _likely_units(edge, mounts)
     x, y, z = (edge.values[-1, :3] / units[0][1]).tolist()
@@ -105,15 +105,19 @@ def _other_units(edge: Edge, mounts: list[Edge]) -> Iterator[Finding]:
 
 def _likely_units(edge: Edge, mounts: list[Edge]) -> list[tuple[str, float]]:
     """Return the units in which the distance is like those of the robot's other mounts, or possible; at least one."""
-    possible = [unit for unit in _UNITS if _MIN_MOUNT < edge.length / unit[1] < _MAX_DISTANCE] or list(_UNITS[:1])
-    others = [other.length for other in mounts if other is not edge and _MIN_MOUNT < other.length < _MAX_DISTANCE]
+    possible = [unit for unit in _UNITS if _MIN_MOUNT_DISTANCE < edge.length / unit[1] < _MAX_DISTANCE] or list(
+        _UNITS[:1]
+    )
+    others = [
+        other.length for other in mounts if other is not edge and _MIN_MOUNT_DISTANCE < other.length < _MAX_DISTANCE
+    ]
     if not others:
         return possible
     alike = [unit for unit in possible if min(others) / 2.0 <= edge.length / unit[1] <= 2.0 * max(others)]
     return alike or possible
 
 
-def _is_in_world(edge: Edge) -> bool:
+def _is_world_edge(edge: Edge) -> bool:
     names = {edge.parent.rpartition("/")[2].lower(), edge.child.rpartition("/")[2].lower()}
     return any(name.startswith(world) for name in names for world in _WORLD_FRAMES)
 
@@ -122,13 +126,13 @@ def _wrong_optical_axes(observation: Observation, edge: Edge) -> Iterator[Findin
     """Yield a finding for an optical frame in which no camera can look: by REP-103 its z points forward, x right."""
     found = wrong_axes(observation, edge)
     if found is not None:
-        turned = described_rotation(found.pose[3:])
+        turned = rotation_text(found.pose[3:])
         command = static_command(*found.edge.key, found.pose.tolist())
         fix = f"{found.fix} The rotation is {turned}: `{command}`.".lstrip()
         yield _finding(found.edge, found.text, fix, pose=found.pose)
 
 
-def _below_ground(observation: Observation) -> Iterator[Finding]:
+def _find_below_ground(observation: Observation) -> Iterator[Finding]:
     """Yield a note for a camera or lidar below the ground on which its robot drives."""
     seen = set()
     for sensor in observation.sensors:
@@ -152,7 +156,7 @@ def _below_ground(observation: Observation) -> Iterator[Finding]:
 
 def _below_ground_finding(mount: Edge) -> Iterator[Finding]:
     pose = mount.last_pose
-    inverse = inverted(pose)[0]
+    inverse = inverse_poses(pose)[0]
     mirrored = pose[0] * np.array([1.0, 1.0, -1.0, 1.0, 1.0, 1.0, 1.0])
     inverted_text = f"the inverse of the transform is {inverse[2]:.3g} m above it; " if inverse[2] > 0.0 else ""
     right = inverse if inverse[2] > 0.0 and mount.angle > _MIN_ROTATION else mirrored

@@ -45,7 +45,7 @@ def find(observation: Observation) -> Iterator[Finding]:
         code=CODE,
         severity=Severity.WARNING,
         text=f"time jumped back {times(count)}, by up to {duration(back)}, on {names}: listeners clear their buffers, "
-        "or reject the following transforms as too old",
+        "or reject the following transforms because they are too old",
         fix="Restart the listeners after a simulation was reset or a recording was restarted; replay a recording once, "
         "or with --clock and use_sim_time:=true, so that nodes detect the jump.",
         edge=found[0][0].key if found else None,

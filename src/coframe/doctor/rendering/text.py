@@ -15,10 +15,10 @@ if TYPE_CHECKING:
     from coframe.doctor._finding import Finding
     from coframe.doctor.observation import Observation
 
-__all__ = ["lines"]
+__all__ = ["report_lines"]
 
 
-def lines(report: Report) -> Iterator[tuple[str, str]]:
+def report_lines(report: Report) -> Iterator[tuple[str, str]]:
     """Yield pairs of a style (``error``, ``warning``, ``note``, ``good``, ``dim`` or ``plain``) and a line."""
     for finding in report.findings:
         yield str(finding.severity), headline(finding)
@@ -79,7 +79,7 @@ def _sensor(sensor: SensorFacts) -> str:
     until = f" until the end of each sweep, {duration(sensor.sweep)} after its stamp" if sensor.sweep else ""
     return (
         f"{sensor.topic}: from {sensor.frame} to {sensor.root}{until}: {at_once} of {sensor.messages} messages can be "
-        "transformed at once, "
+        "transformed immediately, "
         + ", ".join(f"{number} after {after} ms" for number, after in zip(later, (50, 100, 200), strict=True))
         + waits
     )

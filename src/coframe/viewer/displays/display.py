@@ -242,7 +242,9 @@ class Display:
             self.status = Status("ok")
             if self._left_out:
                 left_out = count(self._left_out, "group")
-                self.status = Status("error", f"not drawn: {left_out} of markers; a message has at most {MAX_DRAWINGS}")
+                self.status = Status(
+                    "error", f"not drawn: {left_out} of markers; the maximum per message is {MAX_DRAWINGS}"
+                )
             return
         waited = time.monotonic() - self._incoming_since
         if at == 0 and waited < TRANSFORM_TIMEOUT and not layer.is_hopeless:

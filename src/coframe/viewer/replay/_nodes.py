@@ -32,7 +32,7 @@ def record_nodes(nodes: Sequence[NodeRecord], origin: int) -> list[ReplayNode]:
                 left -= record.geometry.size
                 geometry = base64.b64encode(record.geometry.encode(record.id)).decode()
             else:
-                problem = f"omitted from this replay, which has at most {MAX_NODE_BYTES >> 20} MiB of them"
+                problem = f"omitted from this replay; the maximum is {MAX_NODE_BYTES >> 20} MiB"
         message = record.message(origin, problem)
         message["clickable"] = False  # There is no program to call.
         found[record.id] = ReplayNode(node=message, geometry=geometry)

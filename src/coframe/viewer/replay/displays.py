@@ -218,7 +218,7 @@ class _DisplayRecorder:
 
     def _omit(self, room: int) -> None:
         self._clear()
-        text = f"omitted from this replay: one message takes more than the remaining {room / 1e6:.0f} MB"
+        text = f"omitted from this replay, because one message takes more than the remaining {room / 1e6:.0f} MB"
         self._statuses = [(0, "error", text)]
 
 

@@ -290,7 +290,7 @@ def _cannot_listen(host: str, port: int, reason: Exception) -> ViewerError:
     code = getattr(reason, "errno", None)
     if code == errno.EADDRNOTAVAIL or isinstance(reason, socket.gaierror | UnicodeError):
         return ViewerError(
-            f"cannot listen on {host}: it is not an address of this machine",
+            f"cannot listen on {host}: this machine does not have that address",
             hint="Choose another host, or 127.0.0.1.",
         )
     text = os.strerror(code) if code else str(reason)

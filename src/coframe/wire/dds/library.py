@@ -163,7 +163,7 @@ def _first_usable(searched: Iterator[Place]) -> Library:
 def _refusal(place: Place, reason: str) -> str:
     version = f"version {place.version}, " if place.version else ""  # "version 12.1.0, from the system"
     return (
-        f"The DDS library {place.path} ({version}from {place.source}) cannot be used: it {reason}. "
+        f"The DDS library {place.path} ({version}from {place.source}) cannot be used because it {reason}. "
         f"coframe supports {SUPPORTED}."
     )
 
@@ -175,7 +175,7 @@ def _missing_library_error(looked: list[Place]) -> WireError:
     return WireError(
         "Joining the ROS graph requires the DDS library libddsc, which is not installed. " + how_to_get_one(),
         hint="`coframe doctor --system` lists the places that were searched. All features of coframe that need no "
-        "network work without it.",
+        "network work without libddsc.",
     )
 
 

@@ -208,7 +208,7 @@ class RequestReader(_Queue):
         if header is None or byte_order(data) is None:
             query.drop()
             self._warn_of_invalid(
-                f"A request of {self.endpoint.name} is ignored: it is not a request of rmw_zenoh_cpp. Check for a "
+                f"A request of {self.endpoint.name} is ignored, because it was not sent by rmw_zenoh_cpp. Check for a "
                 "program that sends requests without ROS 2."
             )
             return
@@ -242,7 +242,7 @@ class RequestReader(_Queue):
         self.dropped += 1
         if self.dropped == 1:
             _logger.warning(
-                "Requests of %s are dropped: %d wait for the node, or %d for an answer.",
+                "Requests of %s are dropped: %d wait for the node, or %d for a response.",
                 self.endpoint.name,
                 self._longest,
                 KEEP_ALL,
@@ -340,7 +340,8 @@ class RequestWriter(_Sender):
         self.ignored += 1
         if self.ignored == 1:
             _logger.warning(
-                "A reply of %s is ignored: it is not a reply of rmw_zenoh_cpp to this client. More are only counted.",
+                "A reply of %s is ignored, because it is not a reply of rmw_zenoh_cpp to this client. More are only "
+                "counted.",
                 self.endpoint.name,
             )
 

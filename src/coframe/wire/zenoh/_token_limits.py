@@ -38,7 +38,7 @@ class TokenLimits:
             self._warn(
                 "full",
                 f"More than {MAX_TOKENS} nodes and endpoints, or {MAX_TOKEN_BYTES >> 20} MiB of their names, are on "
-                f"the graph. More are not listed. Find out which process creates them.",
+                f"the graph. The others are not listed. Find out which process creates them.",
             )
             return False
         self._stored.add(text)

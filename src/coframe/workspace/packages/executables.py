@@ -83,7 +83,8 @@ def executables(package: str) -> dict[str, Executable]:
 def _executables_hint(package: str) -> str:
     share = next(candidates(package)).share
     return (
-        f"{share} declares none: console_scripts of setup.py, setup.cfg or pyproject.toml, and install(PROGRAMS) of "
+        f"{share} declares none. coframe reads console_scripts of setup.py, setup.cfg or pyproject.toml, and "
+        f"install(PROGRAMS) of "
         "CMakeLists.txt are read; programs in C++ need `colcon build` and a sourced workspace."
     )
 

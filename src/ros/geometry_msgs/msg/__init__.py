@@ -1,7 +1,7 @@
 # Written by scripts/generate_messages.py from interfaces/geometry_msgs/msg; do not edit.
 """Messages of geometry_msgs."""
 
-from coframe.distributions import hide_removed
+from coframe.distributions import hide_removed_types
 from coframe.messages.generated.geometry_msgs.msg import (
     Accel,
     AccelStamped,
@@ -72,4 +72,4 @@ __all__ = [
     "WrenchStamped",
 ]
 
-hide_removed(globals(), "geometry_msgs", "msg")
+hide_removed_types(globals(), "geometry_msgs", "msg")
