@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The base classes of coframe's exceptions and warnings, for modules without the native core; see `coframe.errors`."""
+"""The base classes of coframe's exceptions and warnings, for modules without the native core. See `coframe.errors`."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class CoframeError(Exception):
 
     @property
     def doctor_code(self) -> str:
-        """The code of the doctor's page about this problem, such as ``"TF013"``; "" if there is none."""
+        """The code of the doctor's page about this problem, such as ``"TF013"``, or "" if there is none."""
         return ""
 
     # The interpreter reads the notes only when it prints a traceback, so other hints are never computed.
@@ -42,7 +42,7 @@ class CoframeError(Exception):
         self.__dict__["__notes__"] = notes
 
     def _render_traceback_(self) -> list[str]:
-        """Return the traceback for IPython, which calls this method; older versions do not show notes."""
+        """Return the traceback for IPython, which calls this method. Older versions do not show notes."""
         ipython = sys.modules.get("IPython")
         shell = ipython.get_ipython() if ipython else None
         if shell is None:

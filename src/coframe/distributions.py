@@ -36,7 +36,7 @@ __all__ = [
 
 
 class Distribution(IntEnum):
-    """A distribution of ROS 2; later ones are greater."""
+    """A distribution of ROS 2. Later ones are greater."""
 
     HUMBLE = 1
     JAZZY = 2
@@ -216,7 +216,7 @@ def since(key: str) -> bool:
 
 
 def removal(ros_type: str) -> str:
-    """Return why this process does not have a type that other distributions have; "" if it has it."""
+    """Return why this process does not have a type that other distributions have, or "" if it has it."""
     package = ros_type.partition("/")[0] + "/"
     for name, kind in ((ros_type, ""), (package, "interfaces of ")):
         removed = REMOVED.get(name)

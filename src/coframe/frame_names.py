@@ -39,7 +39,7 @@ TF_STATIC_TOPIC: Final = "/tf_static"
 
 
 def renaming(prefix: str = "", keep: Iterable[str] = ()) -> _core.Renaming | None:
-    """Return the function that adds a prefix to frame names; None for an empty prefix.
+    """Return the function that adds a prefix to frame names, or None for an empty prefix.
 
     Args:
         prefix: Prefix of each name, with its own slash: ``robot1/``.
@@ -67,7 +67,7 @@ def renaming(prefix: str = "", keep: Iterable[str] = ()) -> _core.Renaming | Non
 
 
 def shared_frames(keep: Iterable[str]) -> list[str]:
-    """Return the names of the shared frames as a list; a string is split at commas.
+    """Return the names of the shared frames as a list. A string is split at commas.
 
     Raises:
         TypeError: A name is not a string.
@@ -109,7 +109,7 @@ def is_robot_topic(topic: str, tf_topic: str, tf_static_topic: str) -> bool:
 
 
 def prefix_advice(prefix: str) -> str:
-    """Return a warning about a prefix that probably lacks its slash; "" for other prefixes.
+    """Return a warning about a prefix that probably lacks its slash, or "" for other prefixes.
 
     Example:
         >>> prefix_advice("robot1")
@@ -130,9 +130,9 @@ def naming_problems(origin: str, slashed: str, prefixed: str, plain: str) -> lis
 
     Args:
         origin: A description of the publisher.
-        slashed: An example of a name with a leading slash; "" if there is none.
-        prefixed: An example of a name that has the prefix already; "" if there is none.
-        plain: An example of a name without the prefix; "" if there is none.
+        slashed: An example of a name with a leading slash, or "" if there is none.
+        prefixed: An example of a name that has the prefix already, or "" if there is none.
+        plain: An example of a name without the prefix, or "" if there is none.
 
     Example:
         >>> naming_problems("/robot1/tf", "/odom", "robot1/odom", "laser")[1].partition(":")[0]

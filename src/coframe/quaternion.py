@@ -153,7 +153,7 @@ def from_euler(seq: str, angles: Array) -> Array:
 
 
 def to_euler(q: Array, seq: str) -> Array:
-    """Return Euler angles (..., 3) in radians; see :func:`from_euler`.
+    """Return Euler angles (..., 3) in radians. See :func:`from_euler`.
 
     After E. Bernardes and S. Viollet, "Quaternion to Euler angles conversion: a direct, general and computationally
     efficient method" (2022). In gimbal lock, the last angle is 0.

@@ -133,7 +133,7 @@ def duration_ns(duration: DurationLike) -> int:
 
 
 def duration_seconds(duration: DurationLike | None) -> float | None:
-    """Return a timeout as seconds, as the modules of Python expect it; None for None.
+    """Return a timeout as seconds, as the modules of Python expect it, or None for None.
 
     Raises:
         TypeError: As :func:`duration_ns`.

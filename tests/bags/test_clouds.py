@@ -138,7 +138,9 @@ def test_the_field_with_the_times_can_be_given(path):
         missing = Clouds(recording, "/points_other", "map", at=stamp, point_times="time", fields=[])
         assert list(missing) == []
         assert "the points have no field 'time'" in next(iter(missing.skipped))
-        with pytest.raises(ValueError, match=r"'us:h' is not a field with a unit: write for example time:us"):
+        with pytest.raises(
+            ValueError, match=r"'us:h' is not a field with a unit. Write it as FIELD:UNIT, for example time:us"
+        ):
             Clouds(recording, "/points_other", "map", point_times="us:h")
 
 

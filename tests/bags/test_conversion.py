@@ -129,7 +129,9 @@ def test_a_type_with_new_fields_in_ros2_gets_their_defaults(tmp_path):
 )
 def test_a_type_that_cannot_be_converted_is_reported(tmp_path, ros_type, definition):
     source = bag(tmp_path / "run.bag", ros_type, definition, text(b"a") + bytes(4))
-    assert "/own: 1 message skipped: their type of ROS 1 cannot" in " ".join(repair(source, tmp_path / "new").changes)
+    assert "/own: 1 message skipped, because their ROS 1 type cannot" in " ".join(
+        repair(source, tmp_path / "new").changes
+    )
     report = copy(source, tmp_path / "run")
     assert report.problems[-1].startswith("/own: 1 message could not be converted")
     with coframe.open_bag(tmp_path / "run") as recording:

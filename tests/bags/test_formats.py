@@ -443,13 +443,16 @@ def test_files_that_are_not_recordings_are_errors(tmp_path):
 @pytest.mark.parametrize(
     ("start", "reason"),
     [
-        (b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n", "`git lfs pull` downloads that"),
+        (
+            b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n",
+            "download the content with `git lfs pull`",
+        ),
         (gzip.compress(b"\x89MCAP0\r\n"), "the file is compressed with gzip"),
         (bz2.compress(b"x"), "the file is compressed with bzip2"),
         (lzma.compress(b"x"), "the file is compressed with xz"),
         (b"PK\x03\x04 archive", "the file is a zip archive"),
         (b"<!DOCTYPE html><title>Log in</title>", "the file is a web page"),
-        (bytes(4096), "it begins with zeros"),
+        (bytes(4096), "the file begins with zeros"),
     ],
     ids=["lfs", "gzip", "bzip2", "xz", "zip", "page", "zeros"],
 )

@@ -185,12 +185,12 @@ ALIASES = "a: &a [x]\n" + "\n".join(f"b{i}: &b{i} [*{'a' if not i else f'b{i - 1
 DOUBLING = "a: &c0 [x]\n" + "\n".join(f"b{i}: &c{i} [*c{i - 1}, *c{i - 1}]" for i in range(1, 40))
 BAG = "rosbag2_bagfile_information:\n  compression_mode: "
 MADE = {
-    "strings.mcap": (strings, "more than the limit"),
-    "strings_of_tf.mcap": (strings_of_tf, "more than the limit"),
-    "numbers.mcap": (numbers, "more than the limit"),
-    "doubling.mcap": (doubling, "more than the limit"),
+    "strings.mcap": (strings, "the maximum is 67108864"),
+    "strings_of_tf.mcap": (strings_of_tf, "the maximum is 67108864"),
+    "numbers.mcap": (numbers, "the maximum is 67108864"),
+    "doubling.mcap": (doubling, "the maximum is 67108864"),
     "redefined.mcap": (redefined, ""),
-    "redefined_without_use.mcap": (redefined_without_use, "more than the limit"),
+    "redefined_without_use.mcap": (redefined_without_use, "the maximum is 67108864"),
     "many_joints.mcap": (many_joints, ""),
     "brackets.mcap": (brackets_in_channel, ""),
     "chunks.mcap": (chunks, "more than 1000 times as many"),
@@ -200,7 +200,10 @@ MADE = {
     "times.mcap": (times, "damaged messages"),
     "header.db3": (header, "the database is damaged (file is not a database)"),
     "footer.mcap": (footer, "the footer is damaged"),
-    "aliases": (with_metadata(f"{DOUBLING}\n{BAG}*c39\n  compression_format: *c39"), "replaced by copies"),
+    "aliases": (
+        with_metadata(f"{DOUBLING}\n{BAG}*c39\n  compression_format: *c39"),
+        "after its aliases (*) are expanded",
+    ),
     "few_aliases": (with_metadata(f"{ALIASES}\n{BAG}*a"), ""),
     "list": (with_metadata(f"{BAG}none\nunused: [{'1,' * 5_000_000}1]"), "values"),
     "metadata_brackets": (with_metadata("[" * 50_000), "levels deep"),

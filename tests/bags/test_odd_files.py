@@ -16,7 +16,7 @@ CRLF = b"\r\n"
 def test_files_whose_line_ends_were_changed_are_named_so(tmp_path):
     for path in (recordings.write_mcap(tmp_path / "a.mcap"), recordings.write_rosbag1(tmp_path / "a.bag")):
         path.write_bytes(path.read_bytes().replace(b"\n", CRLF))
-        with pytest.raises(coframe.RecordingError, match="its line ends were changed"):
+        with pytest.raises(coframe.RecordingError, match="a transfer in text mode, or Git, has changed the line ends"):
             coframe.open_bag(path)
 
 
@@ -45,7 +45,7 @@ def test_transforms_in_an_unknown_encoding_are_reported(tmp_path, type_):
 @pytest.mark.parametrize(
     ("content", "what"),
     [
-        (b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\n", "pointer of Git LFS"),
+        (b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\n", "Git LFS pointer"),
         (gzip.compress(b"x" * 100, mtime=0), "compressed with gzip"),
         (b"\x04\x22\x4d\x18\x64\x40\xa7", "compressed with LZ4"),
         (b"", "the file is empty"),

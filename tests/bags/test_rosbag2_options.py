@@ -39,16 +39,16 @@ def test_words_of_record():
     words = (
         "--topics /a /b -o out -b 0 -d 60 --max-cache-size 1000 --polling-interval 5 --exclude-regex x --log-level info"
     )
-    assert RECORD_WORDS.translated(words.split()) == (
+    assert RECORD_WORDS.translate(words.split()) == (
         ["--topics", "/a", "--topics", "/b", "-o", "out", "--max-duration", "60", "--backlog", "1000", "--exclude", "x"]
     )
-    assert RECORD_WORDS.translated(["--max-bag-size=5", "-s", "sqlite3", "/a"]) == [
+    assert RECORD_WORDS.translate(["--max-bag-size=5", "-s", "sqlite3", "/a"]) == [
         "--max-size=5",
         "--storage",
         "sqlite3",
         "/a",
     ]
-    assert RECORD_WORDS.translated(["--services", "/x", "/y", "--", "--topics"]) == [
+    assert RECORD_WORDS.translate(["--services", "/x", "/y", "--", "--topics"]) == [
         "--services",
         "/x",
         "--services",
@@ -59,7 +59,7 @@ def test_words_of_record():
 
 
 def test_words_of_play():
-    assert PLAY_WORDS.translated(["run", "--topics", "/a", "/b", "-l", "-s", "mcap"]) == [
+    assert PLAY_WORDS.translate(["run", "--topics", "/a", "/b", "-l", "-s", "mcap"]) == [
         "run",
         "--topics",
         "/a",
@@ -68,8 +68,8 @@ def test_words_of_play():
         "--loop",
     ]
     # The recording may also come last.
-    assert PLAY_WORDS.translated(["--topics", "/a", "run"]) == ["--topics", "/a", "run"]
-    assert PLAY_WORDS.translated(["--rate", "-1", "run"]) == ["--rate", "-1", "run"]
+    assert PLAY_WORDS.translate(["--topics", "/a", "run"]) == ["--topics", "/a", "run"]
+    assert PLAY_WORDS.translate(["--rate", "-1", "run"]) == ["--rate", "-1", "run"]
 
 
 @pytest.mark.parametrize(

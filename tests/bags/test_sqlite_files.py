@@ -70,7 +70,7 @@ def endless_rows(path):
     sqlite_pages.endless_rows(path, TF)
 
 
-@hostile("more work than any recording")
+@hostile("more steps than in any valid recording")
 def endless_rows_of_no_topic(path):
     sqlite_pages.endless_rows(path, TF, topic_of_rows=2)
 

@@ -221,7 +221,7 @@ def test_a_clock_that_is_behind_is_not_a_stopped_publisher(start, inside):
         assert (arm["child"], arm["stale"]) == ("arm", False)
         assert "stale" not in arm["remark"]
         if options:
-            assert data["hint"].startswith("The stamps of base_link -> arm are off, see TF008 below.")
+            assert data["hint"].startswith("The stamps of base_link -> arm are wrong: see TF008 below.")
 
 
 def test_two_clocks_of_a_recording(tmp_path):
@@ -231,7 +231,7 @@ def test_two_clocks_of_a_recording(tmp_path):
         run.drive(at, "base_link", "arm", stamp=at - 5000 * SECOND)
     bag = run.write(tmp_path)
     data = answer(bag, "odom", "arm")
-    assert data["hint"].startswith("The stamps of base_link -> arm are off, see TF009 below.")
+    assert data["hint"].startswith("The stamps of base_link -> arm are wrong: see TF009 below.")
     offset = "base_link -> arm are 5000.001 s +-0 ns behind the system clock"
     assert offset in data["findings"][0]["text"]
     for command in (["doctor", bag], ["bag", "fix", bag, tmp_path / "copy"]):

@@ -360,7 +360,7 @@ def test_mutated_messages_decode_or_are_refused(random_message: Builder) -> None
 @pytest.mark.parametrize(
     ("broken", "error", "text"),
     [
-        (String(), ValueError, "cannot serialize std_msgs/msg/String, field data: a NUL character inside"),
+        (String(), ValueError, "cannot serialize std_msgs/msg/String, field data: the string contains a NUL character"),
         (Header(), TypeError, "cannot serialize std_msgs/msg/Header, field stamp.sec to frame_id: "),
         (Time(), ValueError, "cannot serialize builtin_interfaces/msg/Time, field sec to nanosec: "),
     ],

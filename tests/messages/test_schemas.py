@@ -204,29 +204,35 @@ def test_constants_as_sizes_in_idl():
 
 MANY_CONSTANTS = "\n".join(f"const long A{i} = 1;" for i in range(MAX_CONSTANTS + 1))
 HOSTILE_IDL = {
-    "shift": (idl("const long A = 1 << 30000000000;"), "line 3: a shift by 30000000000 bits"),
-    "negative shift": (idl("const long A = 1 << -1;"), "line 3: a shift by -1 bits"),
+    "shift": (idl("const long A = 1 << 30000000000;"), "line 3: a value is shifted by 30000000000 bits"),
+    "negative shift": (idl("const long A = 1 << -1;"), "line 3: a value is shifted by -1 bits"),
     "product": (
         idl("const long A = 4294967295 * 4294967296 * 4294967296;"),
-        "line 3: a value of 96 bits; the maximum is 64",
+        "line 3: a value has 96 bits; the maximum is 64",
     ),
-    "sum": (idl("const long A = 18446744073709551615 + 18446744073709551615;"), "line 3: a value of 65 bits"),
+    "sum": (idl("const long A = 18446744073709551615 + 18446744073709551615;"), "line 3: a value has 65 bits"),
     "division": (idl("const long A = 1 / 0;"), "line 3: a division by zero"),
     "power": (idl("const long A = 9 ** 99;"), "line 3: expected a value, found *"),
-    "digits": (idl(f"const long A = {'9' * 5000};"), "line 3: a number of 5000 characters; the maximum is 400"),
+    "digits": (idl(f"const long A = {'9' * 5000};"), "line 3: a number has 5000 characters; the maximum is 400"),
     "parentheses": (
         idl(f"const long A = {'(' * 500}1{')' * 500};"),
-        f"line 3: more than {MAX_NESTING} nested parentheses",
+        f"line 3: parentheses or signs are nested more than {MAX_NESTING} levels deep",
     ),
-    "signs": (idl(f"const long A = {'-' * 500}1;"), f"line 3: more than {MAX_NESTING} levels deep"),
-    "modules": ("module a {" * 500, f"line 1: more than {MAX_NESTING} nested modules"),
+    "signs": (
+        idl(f"const long A = {'-' * 500}1;"),
+        f"line 3: parentheses or signs are nested more than {MAX_NESTING} levels deep",
+    ),
+    "modules": ("module a {" * 500, f"line 1: modules are nested more than {MAX_NESTING} levels deep"),
     "sequences": (idl(fields="sequence<" * 300 + "long" + ">" * 300 + " x;"), "line 6: ROS does not support sequences"),
-    "constants": (idl(MANY_CONSTANTS), f"line {MAX_CONSTANTS + 3}: more than {MAX_CONSTANTS} constants"),
+    "constants": (
+        idl(MANY_CONSTANTS),
+        f"line {MAX_CONSTANTS + 3}: the definition has more than {MAX_CONSTANTS} constants",
+    ),
     "structures": (
         "\n".join(f"struct A{i} {{ long x; }};" for i in range(MAX_TYPES + 1)),
-        f"line {MAX_TYPES + 1}: more than {MAX_TYPES} structures",
+        f"line {MAX_TYPES + 1}: the definition has more than {MAX_TYPES} structures",
     ),
-    "text": (idl(f'const string A = "{"a" * 30_000}";'), "line 3: a string of 30002 characters"),
+    "text": (idl(f'const string A = "{"a" * 30_000}";'), "line 3: a string has 30002 characters"),
     "text times number": (idl('const long A = "a" * 1000;'), "line 3: the operator * cannot be applied to 'a'"),
     "string length": (idl(fields="string<99999999999999> x;"), "line 6: a size must be from 1 to 4294967295"),
     "array": (idl(fields="long x[9999999999];"), "line 6: a size must be from 1 to 4294967295"),
@@ -246,18 +252,24 @@ CHAIN = "lab/L0 x\n" + "".join(f"{LINE}MSG: lab/L{i}\nlab/L{i + 1} x\n" for i in
 HOSTILE_MSG = {
     "types": (
         "int32 x\n" + "".join(f"MSG: a{i}/B\nint32 x\n" for i in range(MAX_TYPES + 1)),
-        f"line {2 * MAX_TYPES + 2}: more than {MAX_TYPES} messages",
+        f"line {2 * MAX_TYPES + 2}: the definition has more than {MAX_TYPES} messages",
     ),
-    "constants": ("\n".join(f"int32 A{i}=1" for i in range(MAX_CONSTANTS + 1)), f"line {MAX_CONSTANTS + 1}: more than"),
-    "fields": ("".join(f"int32 a{i}\n" for i in range(20_001)), "line 20001: more than 20000 fields"),
-    "digits": (f"int32 x\nint32 A={'9' * 5000}", "line 2: a number of 5000 characters; the maximum is 400"),
-    "line": (f"int32 x\nstring A='{'a' * 30_000}'", "line 2: a line of 30011 characters"),
+    "constants": (
+        "\n".join(f"int32 A{i}=1" for i in range(MAX_CONSTANTS + 1)),
+        f"line {MAX_CONSTANTS + 1}: the definition has more than",
+    ),
+    "fields": (
+        "".join(f"int32 a{i}\n" for i in range(20_001)),
+        "line 20001: the definition has more than 20000 fields",
+    ),
+    "digits": (f"int32 x\nint32 A={'9' * 5000}", "line 2: a number has 5000 characters; the maximum is 400"),
+    "line": (f"int32 x\nstring A='{'a' * 30_000}'", "line 2: a line has 30011 characters"),
     "string length": ("string<=99999999999999 x", "line 1: a size must be from 1 to 4294967295"),
     "array": ("int32[99999999999] x", "line 1: a size must be from 1 to 4294967295"),
     "memory": ("int32 y\nstring[1000000000] x", "line 2: a message with default values would need"),
     "depth": (
         f"{CHAIN}{LINE}MSG: lab/L{MAX_DEPTH + 1}\nint32 x\n",
-        f"line {3 * MAX_DEPTH + 1}: more than {MAX_DEPTH} levels deep",
+        f"line {3 * MAX_DEPTH + 1}: messages are nested more than {MAX_DEPTH} levels deep",
     ),
     "cycle": (f"lab/A x\n{LINE}MSG: lab/A\nint32 y\nlab/A[] x\n", "line 5: a message cannot contain itself"),
     "doubling": (
@@ -268,7 +280,7 @@ HOSTILE_MSG = {
     ),
     "loops": (
         "lab/L0[] a\n" + "".join(f"MSG: lab/L{i}\nlab/L{i + 1}[] a\n" for i in range(30)) + "MSG: lab/L30\nint32 x\n",
-        "line 1: more than 16 levels deep",
+        "line 1: sequences are nested more than 16 levels deep",
     ),
     "missing": (
         f"lab/A x\n{LINE}MSG: lab/A\nint32 y\nlab/Gone x\n",

@@ -32,7 +32,7 @@ def test_fields_and_timings():
         ("odom->base_link.pitsch", "not 'pitsch'", "Did you mean 'pitch'?"),
         ("->base_link.x", "needs a frame on both sides", "Examples:"),
         ("odom->", "needs a frame on both sides", "Examples:"),
-        ("odom-", "the shell has taken '>' as a redirection", "odom:base_link.x"),
+        ("odom-", "the shell interprets '>' as a redirection", "odom:base_link.x"),
         ("base_link.x", "neither two frames nor a topic", "Examples:"),
         ("", "neither two frames nor a topic", "Examples:"),
         ("/scan", "contains a topic, but no field or quantity to plot", "/scan.rate, /scan.delay"),

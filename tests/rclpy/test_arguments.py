@@ -271,10 +271,10 @@ def test_all_blocks_of_a_node_in_a_parameter_file_count(tmp_path):
 
 
 def test_a_parameter_file_that_was_not_downloaded_is_not_an_empty_one(tmp_path):
-    """A pointer of Git LFS is valid YAML without parameters: the node would start with its defaults."""
+    """A Git LFS pointer is valid YAML without parameters: the node would start with its defaults."""
     path = tmp_path / "gains.yaml"
     path.write_text("version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12\n")
-    with pytest.raises(RCLInvalidROSArgsError, match="pointer of Git LFS"):
+    with pytest.raises(RCLInvalidROSArgsError, match="Git LFS pointer"):
         _arguments.parse(["--ros-args", "--params-file", str(path)])
 
 

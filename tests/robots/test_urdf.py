@@ -179,13 +179,13 @@ def test_the_first_of_several_elements_counts():
     assert (moved.origin.translation.tolist(), moved.axis, moved.limits.upper) == ([1, 0, 0], (0, 0, 1), 1)
     assert robot.links["d"].visuals[0].geometry == Box((1, 1, 1))
     assert [warning.partition(";")[0] for warning in robot.warnings] == [
-        "line 5: <origin> in one <visual>",
-        "line 5: <geometry> in one <visual>",
+        "line 5: <visual> contains a second <origin>",
+        "line 5: <visual> contains a second <geometry>",
         "line 5: <geometry> contains 2 shapes",
-        "line 6: <child> in one <joint>",
-        "line 6: <origin> in one <joint>",
-        "line 6: <axis> in one <joint>",
-        "line 6: <limit> in one <joint>",
+        "line 6: <joint> contains a second <child>",
+        "line 6: <joint> contains a second <origin>",
+        "line 6: <joint> contains a second <axis>",
+        "line 6: <joint> contains a second <limit>",
     ]
 
 
@@ -448,7 +448,7 @@ def test_only_the_joints_of_a_circle_of_mimics_are_free():
         "z": None,
     }
     assert len(robot.warnings) == 3
-    assert all("in a circle: x, y, z; the <mimic> of joint" in warning for warning in robot.warnings)
+    assert all("in a loop: x, y, z; the <mimic> of joint" in warning for warning in robot.warnings)
 
 
 def test_a_chain_of_three_thousand_links_is_parsed_quickly():
@@ -484,7 +484,7 @@ def test_mutated_descriptions_are_parsed_or_raise_an_error():
 @pytest.mark.parametrize(
     ("content", "what"),
     [
-        (b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12\n", "pointer of Git LFS"),
+        (b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12\n", "Git LFS pointer"),
         (b"\x1f\x8b\x08\x00", "compressed with gzip"),
         (b"PK\x03\x04", "a zip archive"),
     ],

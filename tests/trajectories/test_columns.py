@@ -139,7 +139,7 @@ def test_the_unit_of_positions_in_the_header_counts(tmp_path, length, scale, com
     path = write(tmp_path, header, "t x y z qx qy qz qw", separator=" ", unit="s", name="a.txt")
     np.testing.assert_allclose(read(path)[0].translation, scale * car()[:, :3], atol=1e-6 * max(scale, 1))
     path.write_text(path.read_text().replace(f"[{length}]", "[ft]"))
-    with pytest.raises(TrajectoryError, match="the unit of the positions is not known"):
+    with pytest.raises(TrajectoryError, match="the unit of the positions is unknown"):
         read(path)
 
 

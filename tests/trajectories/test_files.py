@@ -141,7 +141,7 @@ def test_a_file_with_more_poses_than_the_limit_is_refused(tmp_path, monkeypatch,
 def test_a_small_npz_file_that_unpacks_to_a_large_one_is_refused(tmp_path):
     header = b"{'descr': '<f8', 'fortran_order': False, 'shape': (20000000, 3), }"
     npz(tmp_path / "a.npz", header, bytes(300_000_000))
-    with pytest.raises(TrajectoryError, match=r"it unpacks to 3000.* bytes; the maximum is 268435456"):
+    with pytest.raises(TrajectoryError, match=r"the archive unpacks to 3000.* bytes; the maximum is 268435456"):
         read_trajectory(tmp_path / "a.npz")
 
 

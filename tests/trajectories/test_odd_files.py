@@ -41,7 +41,7 @@ def read(path):
 @pytest.mark.parametrize(
     ("content", "what"),
     [
-        (b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n", "pointer of Git LFS"),
+        (b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n", "Git LFS pointer"),
         (gzip.compress(TUM.encode(), mtime=0), "compressed with gzip; unpack it with gunzip"),
         (bz2.compress(TUM.encode()), "compressed with bzip2"),
         (lzma.compress(TUM.encode()), "compressed with xz"),
@@ -59,7 +59,7 @@ def read(path):
 def test_other_files_are_named_for_what_they_are(tmp_path, content, what, name):
     path = tmp_path / name
     path.write_bytes(content)
-    with pytest.raises(TrajectoryError, match=f"is not a trajectory: it .*{what}"):
+    with pytest.raises(TrajectoryError, match=f"is not a trajectory: the file .*{what}"):
         read_trajectory(path)
     (tmp_path / "good.tum").write_text(TUM)
     ended = CliRunner().invoke(app, ["compare", str(tmp_path / "good.tum"), str(path)])

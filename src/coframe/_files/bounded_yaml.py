@@ -58,7 +58,7 @@ def yaml_events(text: str | bytes, max_bytes: int = MAX_BYTES) -> list[Any]:
 
 
 def error_position(error: ValueError) -> tuple[int, int] | None:
-    """Return the position of a YAML error as line and column, counted from 0; None for an error without a position."""
+    """Return the position of a YAML error as line and column, counted from 0, or None if the position is unknown."""
     return error.position if isinstance(error, _SyntaxError) else None
 
 

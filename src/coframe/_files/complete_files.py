@@ -17,7 +17,7 @@ __all__ = ["complete_or_absent", "write_complete"]
 
 @contextmanager
 def complete_or_absent(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """Yield a temporary path to write to; the file is renamed to `path` only after everything has been written.
+    """Yield a temporary path to write to. The file is renamed to `path` only after everything has been written.
 
     Several threads and processes may write the same file: each one writes to its own temporary path, and the last one
     to finish determines the content. Devices and named pipes are written directly.
@@ -43,7 +43,7 @@ def complete_or_absent(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 
 def write_complete(path: str | os.PathLike[str], content: bytes) -> None:
-    """Write a file; if this fails, the previous content is kept.
+    """Write a file. If this fails, the previous content is kept.
 
     Raises:
         OSError: The file cannot be written.

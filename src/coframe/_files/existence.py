@@ -29,5 +29,5 @@ def is_dir(path: Path) -> bool:
 
 
 def resolved(path: str | os.PathLike[str]) -> Path:
-    """Return the absolute path with links resolved; links that form a loop are kept, where `Path.resolve` may raise."""
+    """Return the absolute path with links resolved. Links that form a loop are kept, where `Path.resolve` may raise."""
     return Path(os.path.realpath(path))

@@ -37,7 +37,7 @@ _KINDS = {
 
 
 def what_else(beginning: bytes) -> str:
-    """Return what a file is, as a clause with what to do; "" if it is not known.
+    """Return what a file is, as a clause with what to do, or "" if it is not known.
 
     Args:
         beginning: The first `BEGINNING` bytes; fewer if the file is shorter.

@@ -92,7 +92,7 @@ def read_regular(path: str | os.PathLike[str], max_bytes: int) -> bytes:
 
 
 def read_regular_text(path: str | os.PathLike[str], max_bytes: int, encoding: str = "utf-8") -> str:
-    r"""Return the text of a regular file; line endings may also be ``\r\n``.
+    r"""Return the text of a regular file. Line endings may also be ``\r\n``.
 
     Args:
         path: The file, or a link to it.
@@ -112,7 +112,7 @@ def check_regular(path: str | os.PathLike[str], max_bytes: int | None = None) ->
 
     Args:
         path: The file, or a link to it.
-        max_bytes: The maximum size; None for a library that does not read the whole file.
+        max_bytes: The maximum size, or None for a library that does not read the whole file.
 
     Raises:
         UnsuitableFileError: It is not a regular file, or is larger than `max_bytes`.
@@ -124,7 +124,7 @@ def check_regular(path: str | os.PathLike[str], max_bytes: int | None = None) ->
 
 
 def reading_hint(error: OSError) -> str:
-    """Return what to do about a file that cannot be read; "" if the error message already says it."""
+    """Return what to do about a file that cannot be read, or "" if the error message already says it."""
     return "" if isinstance(error, UnsuitableFileError) else "Check the path and the permission to read it."
 
 

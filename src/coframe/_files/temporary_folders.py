@@ -32,7 +32,7 @@ def temporary_folder(prefix: str) -> tempfile.TemporaryDirectory[str]:
 
 
 class _LockedFolder(tempfile.TemporaryDirectory[str]):
-    """A temporary folder with a locked file; the system releases the lock when the process ends, even if it is killed.
+    """A temporary folder with a locked file. The system releases the lock when the process ends, even if it is killed.
 
     A process ID would not suffice, because containers can share a temporary folder but number their processes
     independently.

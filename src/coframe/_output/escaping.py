@@ -11,7 +11,7 @@ _FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
 
 
 def printable(text: str) -> str:
-    r"""Return text without control characters and bidirectional marks; newlines and tabs are kept.
+    r"""Return text without control characters and bidirectional marks. Newlines and tabs are kept.
 
     Example:
         >>> printable("arm\x1b[2J")
@@ -21,7 +21,7 @@ def printable(text: str) -> str:
 
 
 def one_line(text: str) -> str:
-    r"""Return a message that contains untrusted names as one printable line; a very long one is truncated.
+    r"""Return a message that contains untrusted names as one printable line. A very long one is truncated.
 
     The end is cut, not the middle: without its middle, a suggested shell command could close a quotation and run what a
     name contains.
@@ -52,7 +52,7 @@ def _truncate_middle(text: str, longest: int) -> str:
 
 
 def csv_cell(value: object) -> object:
-    """Return a cell value that a spreadsheet does not interpret as a formula; numbers are unchanged.
+    """Return a cell value that a spreadsheet does not interpret as a formula. Numbers are unchanged.
 
     Example:
         >>> csv_cell("=1+1"), csv_cell(-1.5)

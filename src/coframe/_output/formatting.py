@@ -79,7 +79,7 @@ def did_you_mean(name: str, known: Iterable[str], *, most: int = 1) -> str:
 
 
 def similar_names(name: str, known: Iterable[str], *, most: int = 1) -> list[str]:
-    """Return the names with the most similar spelling; very long names and names beyond a limit are skipped."""
+    """Return the names with the most similar spelling. Very long names and names beyond a limit are skipped."""
     import difflib  # noqa: PLC0415 - only errors need it
 
     if len(name) > MAX_COMPARED_LENGTH:

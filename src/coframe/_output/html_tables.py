@@ -45,7 +45,7 @@ def table(titles: Sequence[str], rows: Iterable[Sequence[object]], total: int, n
         noun: What a row represents, in the singular.
 
     Returns:
-        HTML; "" if there are no rows.
+        HTML, or "" if there are no rows.
     """
     if total == 0:
         return ""
@@ -63,7 +63,7 @@ def _cell(value: object) -> str:
 
 
 def paragraph(text: str) -> str:
-    """Return text as a paragraph; "" for an empty text."""
+    """Return text as a paragraph, or "" for an empty text."""
     return f'<div style="margin: 0.3em 0">{_escape(text)}</div>' if text else ""
 
 

@@ -22,7 +22,7 @@ class WarnOnce:
     Args:
         warn: Called with each new warning.
         most: The maximum number of warnings.
-        last: Issued once instead of the first warning beyond that number; "" for none.
+        last: Issued once instead of the first warning beyond that number, or "" for none.
     """
 
     def __init__(self, warn: Callable[[str], object], most: int = MAX_WARNINGS, last: str = LAST_WARNING) -> None:

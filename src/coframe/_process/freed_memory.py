@@ -55,5 +55,5 @@ def return_freed_blocks() -> None:
 
 @cache  # Each CDLL creates classes that stay in memory until the cyclic garbage collector runs.
 def _glibc_function(name: str) -> Any:
-    """Return a function of glibc; None without glibc."""
+    """Return a function of glibc, or None without glibc."""
     return getattr(ctypes.CDLL(None), name, None) if sys.platform == "linux" else None

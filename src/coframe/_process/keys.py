@@ -40,7 +40,7 @@ class Keys:
     """Reads key presses. Created by :func:`keys`."""
 
     def read(self, timeout: float) -> str | None:
-        """Return the next key as a character or a name such as `up` or `page down`; None after the timeout."""
+        """Return the next key as a character or a name such as `up` or `page down`, or None after the timeout."""
         raise NotImplementedError
 
 
@@ -88,7 +88,7 @@ class _WindowsKeys(Keys):
 
 @contextlib.contextmanager
 def keys() -> Iterator[Keys]:
-    """Read single keys without echo; restore the terminal on exit."""
+    """Read single keys without echo, and restore the terminal on exit."""
     if not sys.stdin.isatty():
         yield _NoKeys()
         return

@@ -43,7 +43,7 @@ def pip_install(extra: str) -> str:
 
 
 def extra_of(module: str, preferred: Container[str] = ()) -> str | None:
-    """Return the extra that installs a module; None if none does.
+    """Return the extra that installs a module, or None if none does.
 
     Args:
         module: The name of the module.

@@ -108,7 +108,7 @@ def plugins(group: str) -> list[Plugin]:
 
 
 def load_plugins(group: str, report: Callable[[str], None]) -> Iterator[tuple[Plugin, Any]]:
-    """Load the entry points of a group, each with its object; failing ones are reported and skipped.
+    """Load the entry points of a group, each with its object. Failing ones are reported and skipped.
 
     Args:
         group: The group, such as ``coframe.commands``.
@@ -132,7 +132,7 @@ def _modification_time(folder: str) -> int:
 
 @functools.lru_cache(maxsize=256)
 def _entry_points(folder: str, _modification_time: int) -> tuple[Plugin, ...]:
-    """Return all entry points in a folder of ``sys.path``; they are read again when the folder changes."""
+    """Return all entry points in a folder of ``sys.path``. They are read again when the folder changes."""
     try:
         names = sorted(os.listdir(folder))  # noqa: PTH208 - as above
     except (OSError, ValueError):
@@ -146,7 +146,7 @@ def _entry_points(folder: str, _modification_time: int) -> tuple[Plugin, ...]:
 
 
 def _parse_entry_points(path: str, package: str) -> Iterator[Plugin]:
-    """Yield the entry points of a file; lines in another format are skipped."""
+    """Yield the entry points of a file. Lines in another format are skipped."""
     try:
         text = read_regular_text(path, MAX_BYTES)
     except (OSError, ValueError):  # Most distributions have none.

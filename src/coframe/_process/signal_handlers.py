@@ -35,7 +35,7 @@ class SignalHandlers:
 
     @property
     def active(self) -> bool:
-        """Whether the handlers are installed; False after `restore` and in a forked child."""
+        """Whether the handlers are installed, or False after `restore` and in a forked child."""
         return bool(self._replaced_handlers)
 
     def previous(self, number: int) -> _Handler | None:

@@ -34,7 +34,7 @@ class ClockOffset(NamedTuple):
     Attributes:
         offset: The median of arrival minus stamp; negative if the stamps are ahead.
         spread: The robust standard deviation of this delay, without the drift.
-        drift: By how much the stamps fall behind, in parts per million; None if it is not significant.
+        drift: By how much the stamps fall behind, in parts per million, or None if it is not significant.
     """
 
     offset: float

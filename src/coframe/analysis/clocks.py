@@ -31,8 +31,8 @@ def clock_of(wall_lag: float, simulated_lag: float | None = None) -> ClockName:
 
     Args:
         wall_lag: The median of receive time minus stamp, in nanoseconds.
-        simulated_lag: The median of the simulated time at reception minus stamp, in nanoseconds; None without simulated
-            time.
+        simulated_lag: The median of the simulated time at reception minus stamp, in nanoseconds, or None without
+            simulated time.
 
     Returns:
         "wall" for the system clock, "simulated" for the time of /clock, else "other".

@@ -98,7 +98,7 @@ def stale_limit(period: float | NDArray[np.float64]) -> float | NDArray[np.float
     """Return how long an edge may receive nothing before it is stale.
 
     Args:
-        period: The usual period in nanoseconds (see :func:`usual_period`), or an array of them; 0 where it is unknown.
+        period: The usual period in nanoseconds (see :func:`usual_period`), or an array of periods; 0 if unknown.
 
     Returns:
         Nanoseconds: :data:`STALE_PERIODS` periods, and at least :data:`STALE_AFTER`.
@@ -120,7 +120,7 @@ def is_stale(silence: float, period: float, *, static: bool = False) -> bool:
 
     Args:
         silence: The time since the last transform was received, in nanoseconds.
-        period: Its usual period in nanoseconds; 0 where it is unknown.
+        period: Its usual period in nanoseconds, or 0 where it is unknown.
         static: Whether it is static.
 
     Example:
@@ -212,7 +212,7 @@ class LivenessTracker:
         return self._clock() > self._next_check and bool(self.stale().any())
 
     def silences(self) -> NDArray[np.int64]:
-        """Return how long each frame has received nothing, (N,) nanoseconds; 0 for static frames and roots."""
+        """Return how long each frame has received nothing, (N,) nanoseconds, or 0 for static frames and roots."""
         silences = self._clock() - self._received_at
         silences[np.isinf(self._stale_limits)] = 0
         return silences

@@ -90,14 +90,14 @@ class MissingEdge(NamedTuple):
 
 
 def estimator_advice(parent: str, child: str, node: str = "") -> str:
-    """Return what to do if an edge that is estimated by odometry or localization is missing; "" for all other edges.
+    """Return what to do if an edge that is estimated by odometry or localization is missing, or "" for all other edges.
 
     Such an edge must not be published as a static transform: the robot would not move.
 
     Args:
         parent: The parent frame.
         child: The child frame.
-        node: The node that probably estimates the edge, such as the publisher of the odometry; "" if unknown.
+        node: The node that probably estimates the edge, such as the publisher of the odometry, or "" if unknown.
 
     Example:
         >>> estimator_advice("odom", "base_link")[:61]

@@ -20,7 +20,7 @@ def static_command(parent: str, child: str, pose: Iterable[float] | None = None)
     Args:
         parent: The parent frame.
         child: The child frame.
-        pose: The pose of the child in the parent: x, y, z in meters and the quaternion qx, qy, qz, qw; None if it is
+        pose: The pose of the child in the parent: x, y, z in meters and the quaternion qx, qy, qz, qw, or None if it is
             unknown; the command then contains placeholders.
 
     Example:

@@ -25,7 +25,7 @@ class FrameTrees:
     Attributes:
         names: The N frames, in the order in which they were given.
         index: The number of each frame, by name.
-        parents: The number of the parent of each frame; -1 for a frame without one.
+        parents: The number of the parent of each frame, or -1 for a frame without one.
         children: The numbers of the children of each frame, in ascending order.
         order: The numbers of all frames, tree after tree and depth first: parents come before their children.
         depths: The number of edges from each frame up to the root of its tree.
@@ -49,7 +49,7 @@ class FrameTrees:
         """Return the trees of the given frames; takes linear time.
 
         Args:
-            parents: The parent of each frame; "" for a frame without one.
+            parents: The parent of each frame, or "" for a frame without one.
             frames: The names of frames in the order of their numbers; frames that only `parents` contains follow
                 them.
 
@@ -92,12 +92,12 @@ class FrameTrees:
         return tuple(map(tuple, found))
 
     def component(self, frame: str) -> int | None:
-        """Return the number of the tree of a frame; None if there is no such frame."""
+        """Return the number of the tree of a frame, or None if there is no such frame."""
         number = self.index.get(frame)
         return None if number is None else self.components[number]
 
     def root(self, frame: str) -> str:
-        """Return the root of the tree of a frame; the frame itself if it is unknown."""
+        """Return the root of the tree of a frame, or the frame itself if it is unknown."""
         number = self.index.get(frame)
         return frame if number is None else self.names[self.roots[self.components[number]]]
 
@@ -121,7 +121,7 @@ class FrameTrees:
         return [self.names[number] for number in self._path(self.index[frame])]
 
     def chain(self, target: str, source: str) -> list[str] | None:
-        """Return the frames from target up to the nearest common ancestor and down to source; None if there is none."""
+        """Return the frames from target up to the common ancestor and down to source, or None if there is no path."""
         if self.component(target) is None or self.component(target) != self.component(source):
             return [target] if target == source else None
         up, down = self._path(self.index[target]), self._path(self.index[source])

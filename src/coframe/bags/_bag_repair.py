@@ -72,7 +72,7 @@ def repair(
     compression: str = "zstd",
     progress: Callable[[str, int, int], object] = lambda _what, _done, _total: None,
 ) -> RepairReport:
-    """Write a repaired copy of a recording; the original is not changed.
+    """Write a repaired copy of a recording. The original is not changed.
 
     The copy contains everything that can be read, with an index, metadata and the definitions of the types that coframe
     supports. Leading slashes of frame names and transforms that tf2 rejects are removed. Static transforms come first.
@@ -133,7 +133,7 @@ class _Renaming:
         self.change = f"given the prefix {prefix!r}" if prefix else "stripped of leading slashes"
 
     def on(self, topic: str) -> _Renaming:
-        """Return the mapping for the messages on a topic; only topics of the robot get the prefix."""
+        """Return the mapping for the messages on a topic. Only topics of the robot get the prefix."""
         return (
             self
             if self._rename_frame is None or is_robot_topic(topic, *self._robot)
@@ -155,7 +155,7 @@ class _Route(NamedTuple):
     Attributes:
         topic: Number of the topic in the new recording.
         convert: Converts a message to CDR.
-        names: The frame names in the messages; None if there are none to change.
+        names: The frame names in the messages, or None if there are none to change.
         rename: Maps frame names to new ones.
         transforms: Whether the messages are TFMessages.
     """
@@ -246,7 +246,7 @@ class _Repair:
         return _Route(topic, converted.convert, frames, rename, converted.type == TF_MESSAGE)
 
     def _repair_message(self, channel: Channel, route: _Route, data: bytes) -> bytes | None:
-        """Return the repaired message; None if it is damaged."""
+        """Return the repaired message, or None if it is damaged."""
         try:
             message = self._correct_message(channel, route, route.convert(data))
         except Exception:  # noqa: BLE001 - the libraries raise errors of many kinds for damaged bytes

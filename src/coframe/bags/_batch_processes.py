@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Local worker processes for many recordings; a crash affects only its own recording."""
+"""Local worker processes for many recordings. A crash affects only its own recording."""
 
 from __future__ import annotations
 

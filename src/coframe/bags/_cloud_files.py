@@ -170,7 +170,7 @@ def _fill(writer: _Writer, clouds: Iterable[Cloud]) -> int:
 
 
 class _Rows:
-    """A header followed by points; the header is rewritten at the end with the number of points."""
+    """A header followed by points. The header is rewritten at the end with the number of points."""
 
     def __init__(self, stream: BinaryIO, xyz: str = "<f8") -> None:
         self._stream = stream
@@ -206,7 +206,7 @@ class _Rows:
         return points
 
     def header(self, dtype: np.dtype[Any], count: int) -> bytes:
-        """Return the header for a number of points; its length is constant."""
+        """Return the header for a number of points. Its length is constant."""
         raise NotImplementedError
 
 
@@ -218,7 +218,7 @@ class _Ply(_Rows):
         return _cast(points, {"i8": "<f8", "u8": "<f8"})
 
     def header(self, dtype: np.dtype[Any], count: int) -> bytes:
-        """Return the header in ASCII; a comment pads it to a constant length."""
+        """Return the header in ASCII. A comment pads it to a constant length."""
         kinds = {"i1": "char", "u1": "uchar", "i2": "short", "u2": "ushort", "i4": "int", "u4": "uint"}
         kinds |= {"f4": "float", "f8": "double"}
         digits = str(count)
@@ -236,7 +236,7 @@ class _Pcd(_Rows):
         return _cast_coordinates(points, {}, self._coordinate_type)
 
     def header(self, dtype: np.dtype[Any], count: int) -> bytes:
-        """Return the header of version 0.7; a comment pads it to a constant length."""
+        """Return the header of version 0.7. A comment pads it to a constant length."""
         names = dtype.names or ()
         kinds = [_type_letters(dtype, name) for name in names]
         digits = str(count)
@@ -301,7 +301,7 @@ class _Npz:
 
 
 class _BagTopic:
-    """A topic of PointCloud2 messages in a new recording; the caller closes the recording."""
+    """A topic of PointCloud2 messages in a new recording. The caller closes the recording."""
 
     def __init__(self, writer: McapWriter, topic: str, xyz: str) -> None:
         self._writer = writer
@@ -321,10 +321,10 @@ class _BagTopic:
         self._writer.flush()
 
     def finish(self) -> None:
-        """Do nothing; all messages have been written."""
+        """Do nothing. All messages have been written."""
 
     def close(self) -> None:
-        """Do nothing; the caller closes the recording."""
+        """Do nothing. The caller closes the recording."""
 
 
 # PointField constants by NumPy type name.

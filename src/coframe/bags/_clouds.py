@@ -53,7 +53,7 @@ class Cloud(NamedTuple):
         points: A structured array, (N,): ``x``, ``y``, ``z`` in meters as float64, all finite unless ``on_gap`` is
             ``"nan"``, and the other fields of the message with their types.
         deskewed: Whether each point was transformed at its own time.
-        used_times: Name of the field with these times, also if all points of the message have the same time; None if
+        used_times: Name of the field with these times, also if all points of the message have the same time, or None if
             there is none, or if the points were not deskewed although their times differ.
     """
 
@@ -91,7 +91,7 @@ class Clouds:
             ``"time:us"``. If omitted, the field or its unit is guessed; see ``times_read``.
         fixed: A frame that does not move during a sweep. If omitted, it is ``frame``, or, if ``frame`` moves with the
             sensor, the nearest frame above that does not; see ``fixed_frames``.
-        fields: The fields to keep in addition to x, y, z; None for all fields with one number per point.
+        fields: The fields to keep in addition to x, y, z, or None for all fields with one number per point.
         max_gap: The longest interval between two transforms of an edge to interpolate over, such as ``"200ms"``. None
             interpolates over any; see ``gaps``.
         on_gap: What to do with points in longer gaps: ``"omit"`` them, set their coordinates to ``"nan"``, or
@@ -105,7 +105,7 @@ class Clouds:
         points: Number of points.
         skipped: Number of skipped messages by reason.
         points_skipped: Number of skipped points by reason.
-        hint: What to do about the first message that could not be transformed; "" if there is none.
+        hint: What to do about the first message that could not be transformed, or "" if there is none.
         deskewed: Number of messages whose points were transformed at their own times.
         times_read: Number of deskewed messages, by how their times were interpreted.
         fixed_given: Whether ``fixed`` was given.
@@ -200,13 +200,13 @@ class Clouds:
                 yield cloud
 
     def accumulated(self, voxel: float) -> Cloud | None:
-        """Return one cloud with the first point in each voxel; only these points are kept in memory.
+        """Return one cloud with the first point in each voxel. Only these points are kept in memory.
 
         Args:
             voxel: Edge length of the voxels in meters.
 
         Returns:
-            A cloud with the stamp of the last message; None if there are no messages.
+            A cloud with the stamp of the last message, or None if there are no messages.
 
         Raises:
             ValueError: The edge length is invalid, or the messages have different fields.
@@ -261,7 +261,7 @@ class Clouds:
         return None
 
     def _transform_points(self, points: NDArray[Any], times: NDArray[np.int64] | None, frame: str, stamp: int) -> bool:
-        """Transform points in place; return whether each was transformed at its own time."""
+        """Transform points in place, and return whether each was transformed at its own time."""
         buffer = self._recording.buffer
         fixed = self._choose_fixed_frame(frame) if times is not None and points.size else None
         if fixed is None or times is None:
@@ -303,7 +303,7 @@ class Clouds:
         frame: str,
         stamp: int,
     ) -> NDArray[np.bool_]:
-        """Return which points are kept; raise or set those in longer gaps to NaN on request."""
+        """Return which points are kept, and raise or set those in longer gaps to NaN on request."""
         limit = self._max_gap or 0
         inside = transformed & (gaps > limit)
         if inside.any() and self._on_gap == "raise":
@@ -323,7 +323,7 @@ class Clouds:
         return transformed
 
     def _choose_fixed_frame(self, frame: str) -> str | None:
-        """Return the frame that does not move during a sweep of this sensor; None if nothing moves."""
+        """Return the frame that does not move during a sweep of this sensor, or None if nothing moves."""
         if self._fixed is not None:
             return self._fixed
         if frame not in self._still_frames:

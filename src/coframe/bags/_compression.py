@@ -26,7 +26,7 @@ _MAX_RATIO = 1000  # unpacked to packed size, above _PLAUSIBLE
 
 
 class DamagedError(CoframeError):
-    """Part of a file cannot be read; the message gives the reason."""
+    """Part of a file cannot be read. The message gives the reason."""
 
 
 def unpack(compression: str, data: bytes | memoryview, size: int) -> bytes:
@@ -91,7 +91,7 @@ def unpack_message(compression: str, data: bytes | memoryview, largest: int = MA
 
 
 def _declared_size(compression: str, data: bytes | memoryview) -> int:
-    """Return the unpacked size stated in compressed data; 0 if there is none."""
+    """Return the unpacked size stated in compressed data, or 0 if there is none."""
     if compression != "zstd":
         return 0
     zstandard = _import_module("zstandard")

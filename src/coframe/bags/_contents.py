@@ -259,7 +259,7 @@ class _Reading:
         return _has_transforms(channel) and self._choice.selects(channel.topic)
 
     def _batches(self, storage: Storage, progress: Callable[[int], object]) -> Iterator[Batch]:
-        """Yield the batches of a file; an error in the format of another distribution ends this file."""
+        """Yield the batches of a file. An error in the format of another distribution ends this file."""
         try:
             yield from storage.batches(_has_transforms, progress)
         except (OSError, CoframeError):
@@ -315,7 +315,7 @@ class _Reading:
 
 
 def _rate(received: NDArray[np.int64], span: tuple[int, int] | None) -> float:
-    """Return the rate of messages in Hz; 0 for a single burst, such as the static transforms at the start."""
+    """Return the rate of messages in Hz, or 0 for a single burst, such as the static transforms at the start."""
     elapsed = int(received[-1]) - int(received[0]) if len(received) else 0
     if span is None or elapsed <= 0:
         return 0.0

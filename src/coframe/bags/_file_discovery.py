@@ -112,7 +112,7 @@ def open_files(
 
 
 def _similar_paths_hint(path: Path) -> str:
-    """Return a hint with similar paths if a path does not exist; "" if there are none, or if it exists."""
+    """Return a hint with similar paths if a path does not exist, or "" if there are none, or if it exists."""
     try:
         entries = [] if os.path.lexists(path) else sorted(path.parent.iterdir())
     except FileNotFoundError:
@@ -128,7 +128,7 @@ def _similar_paths_hint(path: Path) -> str:
 
 
 def _inner_recordings_hint(folder: Path) -> str:
-    """Return a hint that names the recordings inside a folder; "" if there are none."""
+    """Return a hint that names the recordings inside a folder, or "" if there are none."""
     try:
         inner = [each.name for each in sorted(folder.iterdir()) if each.is_dir() and (each / METADATA).is_file()]
     except OSError:

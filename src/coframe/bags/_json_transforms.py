@@ -76,7 +76,7 @@ def _transform(value: Any) -> StampedValues:
 
 
 def _collect(value: dict[str, Any], fields: dict[str, Any]) -> list[str]:
-    """Add the fields of an object and of the objects in it; return the names of all others."""
+    """Add the fields of an object and of the objects in it, and return the names of all others."""
     unknown = []
     for name, content in value.items():
         field = next((key for key, names in _FIELDS.items() if name in names), None)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reader for MCAP files, including damaged and unfinished ones; the format is described at https://mcap.dev/spec."""
+"""Reader for MCAP files, including damaged and unfinished ones. The format is described at https://mcap.dev/spec."""
 
 from __future__ import annotations
 
@@ -213,7 +213,7 @@ class McapStorage(ChunkedStorage):
             )
 
     def _read_summary(self) -> list[int]:
-        """Read the channels in the summary at the end of the file; return the offsets of the chunks it lists."""
+        """Read the channels in the summary at the end of the file, and return the offsets of the chunks it lists."""
         tail = self.bytes_at(self.size - _FOOTER_RECORD.size - len(MCAP.magic), _FOOTER_RECORD.size)
         if len(tail) < _FOOTER_RECORD.size:
             return []
@@ -336,7 +336,7 @@ class McapStorage(ChunkedStorage):
         return data, crc in {0, zlib.crc32(data)}
 
     def _read_records(self, data: bytes, base: int, *, is_intact: bool = True) -> Generator[Batch, None, int]:
-        """Yield the messages in a sequence of records; return the number of bytes that were read.
+        """Yield the messages in a sequence of records, and return the number of bytes that were read.
 
         Args:
             data: The records.
@@ -385,7 +385,7 @@ class McapStorage(ChunkedStorage):
         ]
 
     def _define(self, opcode: int, data: bytes) -> tuple[int, Channel] | None:
-        """Read a schema or a channel unless it is already known; the summary and later chunks repeat them.
+        """Read a schema or a channel unless it is already known. The summary and later chunks repeat them.
 
         Returns:
             The number of a channel and its definition so far, if this is another one.
@@ -460,7 +460,7 @@ def _is_record(opcode: int) -> bool:
 
 
 def _entry(data: bytes, position: int, wanted: str) -> str:
-    """Return a value of the map of strings at a position; "" if the key is missing."""
+    """Return a value of the map of strings at a position, or "" if the key is missing."""
     end = min(position + 4 + int.from_bytes(data[position : position + 4], "little"), len(data))
     position += 4
     while position < end:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writer for one MCAP file that is valid at any moment; the format is described at https://mcap.dev/spec.
+"""Writer for one MCAP file that is valid at any moment. The format is described at https://mcap.dev/spec.
 
 Each flush writes a chunk and, after it, the end of the file. The next flush overwrites that end. If the recorder is
 killed, any reader can therefore open the file. While the index of all chunks is small, the end contains it, because
@@ -48,8 +48,8 @@ class McapWriter:
     Attributes:
         size: Size of the file in bytes, including pending messages.
         counts: Number of flushed messages by channel.
-        start: First log time of the flushed messages, in nanoseconds; 0 if there are none.
-        end: Last log time of the flushed messages, in nanoseconds; 0 if there are none.
+        start: First log time of the flushed messages, in nanoseconds, or 0 if there are none.
+        end: Last log time of the flushed messages, in nanoseconds, or 0 if there are none.
 
     Raises:
         OSError: The file cannot be created.
@@ -100,7 +100,7 @@ class McapWriter:
         definition_format: str,
         metadata: Mapping[str, str],
     ) -> int:
-        """Add a channel for messages of a type on a topic; return its number."""
+        """Add a channel for messages of a type on a topic, and return its number."""
         key = (ros_type, definition_format, definition)
         if key not in self._schemas:
             self._schemas[key] = len(self._schemas) + 1
@@ -131,7 +131,7 @@ class McapWriter:
         self._sequences[channel] += 1
 
     def flush(self) -> None:
-        """Write the pending messages to the file as one chunk; they survive the end of this process.
+        """Write the pending messages to the file as one chunk. They survive the end of this process.
 
         Raises:
             OSError: Writing failed, for example because the disk is full. The file is unchanged, and the pending
@@ -250,7 +250,7 @@ class McapWriter:
         self._has_summary = with_summary
 
     def _restore_end(self) -> None:
-        """Restore the file end after a failed append; if the disk is full, only the short end may fit."""
+        """Restore the file end after a failed append. If the disk is full, only the short end may fit."""
         for with_summary in (self._has_summary, False):
             with suppress(OSError):
                 self._file.truncate(self._end)

@@ -69,7 +69,7 @@ class MergedNames:
                 self._shared_topics.setdefault(name, []).append(number)
 
     def frames(self, recording: int) -> _core.Renaming | None:
-        """Return the renaming of the frames of a recording; None if they keep their names."""
+        """Return the renaming of the frames of a recording, or None if they keep their names."""
         return self._renamings[recording]
 
     def frame(self, recording: int) -> Callable[[str], str]:
@@ -134,13 +134,13 @@ def _namespace(name: str) -> str:
 
 
 def _own_prefixes(recordings: Sequence[Recording]) -> list[str]:
-    """Return the prefix that the frames of each recording have; "" for all if not each has one of its own."""
+    """Return the prefix that the frames of each recording have, or "" for all if not each has one of its own."""
     found = [_own_prefix(recording) for recording in recordings]
     return found if all(found) and len(set(found)) == len(found) > 1 else [""] * len(found)
 
 
 def _own_prefix(recording: Recording) -> str:
-    """Return the prefix, with its slash, of all frames but the roots; "" if there are several or none."""
+    """Return the prefix, with its slash, of all frames but the roots, or "" if there are several or none."""
     edges = [edge for buffer in recording.buffers.values() for edge in buffer.edges() if edge.parent]
     children = {edge.child for edge in edges}
     roots = {edge.parent for edge in edges} - children

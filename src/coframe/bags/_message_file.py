@@ -77,7 +77,7 @@ class MessageFile(Storage):
         return list(self._channels)
 
     def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
-        """Yield all messages; an exception of the format ends the file and is added to the problems."""
+        """Yield all messages. An exception of the format ends the file and is added to the problems."""
         del wanted
         pending: dict[Channel, _Pending] = {}
         size = count = 0
@@ -140,7 +140,7 @@ class MessageFile(Storage):
 
 
 def _integer(received: Any) -> int | None:
-    """Return a receive time in nanoseconds; None if it is not one."""
+    """Return a receive time in nanoseconds, or None if it is not one."""
     try:
         time = received.__index__()  # NumPy's integers have it, and floats do not
     except AttributeError:

@@ -47,7 +47,7 @@ class Track:
 
     @property
     def stamp_reader(self) -> StampReader | None:
-        """Reader for the stamps of the messages; None if they do not begin with a stamp."""
+        """Reader for the stamps of the messages, or None if they do not begin with a stamp."""
         return self.types.stamp_reader(self.channel)
 
     def add(self, batch: Batch) -> None:
@@ -148,7 +148,7 @@ class MessageIndex:
         return sorted(self._tracks)
 
     def span(self, storage: Storage | None = None) -> tuple[int, int] | None:
-        """Return the first and last receive time of one file or of all files; None if there are no messages."""
+        """Return the first and last receive time of one file or of all files, or None if there are no messages."""
         parts = [
             received
             for track in self.tracks()
@@ -195,7 +195,7 @@ class MessageIndex:
         return None
 
     def read(self, topic: str, row: int) -> bytes | None:
-        """Return the bytes of a message; None if it can no longer be read, which is added to the problems."""
+        """Return the bytes of a message, or None if it can no longer be read, which is added to the problems."""
         rows = self._rows_of(topic)
         return self._bytes(rows.tracks[rows.of_track[row]], int(rows.positions[row]))
 
@@ -218,7 +218,7 @@ class MessageIndex:
         return self._stamps[topic]
 
     def newest_row(self, topic: str, stamp: int) -> int | None:
-        """Return the row of the message with the largest stamp that is at most `stamp`; None if there is none."""
+        """Return the row of the message with the largest stamp that is at most `stamp`, or None if there is none."""
         if topic not in self._by_stamp:
             order = np.argsort(self.stamps(topic), kind="stable")
             self._by_stamp[topic] = (self.stamps(topic)[order], order)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Problems found in a recording, as messages; equal ones are counted."""
+"""Problems found in a recording, as messages. Equal ones are counted."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Problems:
 
         Args:
             sentence: The message.
-            times: The number of occurrences; 0 for a message that is shown without a count.
+            times: The number of occurrences, or 0 for a message that is shown without a count.
         """
         # Names in recordings may contain control characters, and the messages are printed on terminals.
         sentence = sentence[:_MAX_LENGTH]

@@ -44,8 +44,8 @@ class _Beginning(NamedTuple):
     """Cached information about the beginning of the messages of a type.
 
     Attributes:
-        first: The first field; None if it is not a stamp or is unknown.
-        has_header: Whether they have a field ``header``; None if that is unknown.
+        first: The first field, or None if it is not a stamp or is unknown.
+        has_header: Whether they have a field ``header``, or None if that is unknown.
     """
 
     first: FirstStamp | None
@@ -89,7 +89,7 @@ class RecordedTypes:
         return self._found_classes[key]
 
     def own_class(self, channel: Channel) -> Any:
-        """Return the class of the messages of a channel if it is one of coframe's; None otherwise."""
+        """Return the class of the messages of a channel if it is one of coframe's, or None otherwise."""
         try:
             cls = self.message_class(channel)
         except UnknownTypeError:
@@ -113,19 +113,19 @@ class RecordedTypes:
             return self._parsed_schemas[key]
 
     def stamp_reader(self, channel: Channel) -> StampReader | None:
-        """Return the reader for the stamps of a channel's messages; None if they do not begin with a stamp."""
+        """Return the reader for the stamps of a channel's messages, or None if they do not begin with a stamp."""
         if channel.definition and not _find_stamp_type(channel.definition):
             return None  # Reading the definition takes longer, and a recording can have tens of thousands.
         first = self._beginning(channel).first
         return None if first is None else StampReader(first, channel.encoding)
 
     def peek_header(self, channel: Channel, data: bytes) -> HeaderPeek | None:
-        """Return the header of a message without decoding the rest; None if it does not begin with a valid one."""
+        """Return the header of a message without decoding the rest, or None if it does not begin with a valid one."""
         is_header = self._beginning(channel).first is FirstStamp.HEADER
         return peek_header(data, channel.encoding) if is_header else None
 
     def may_have_header(self, channel: Channel) -> bool:
-        """Return whether the messages of a channel have a field ``header``; True if that is unknown."""
+        """Return whether the messages of a channel have a field ``header``, or True if that is unknown."""
         return self._beginning(channel).has_header is not False
 
     def _beginning(self, channel: Channel) -> _Beginning:

@@ -28,8 +28,8 @@ class FileWriter(Protocol):
 
     Attributes:
         counts: Number of flushed messages by channel.
-        start: First receive time of the flushed messages, in nanoseconds; 0 if there are none.
-        end: Last receive time of the flushed messages, in nanoseconds; 0 if there are none.
+        start: First receive time of the flushed messages, in nanoseconds, or 0 if there are none.
+        end: Last receive time of the flushed messages, in nanoseconds, or 0 if there are none.
     """
 
     counts: list[int]
@@ -58,20 +58,20 @@ class FileWriter(Protocol):
         definition_format: str,
         metadata: Mapping[str, str],
     ) -> int:
-        """Add a channel for messages of a type on a topic; return its number, counted from 0."""
+        """Add a channel for messages of a type on a topic, and return its number, counted from 0."""
 
     def write(self, channel: int, data: bytes, log_time: int, publish_time: int) -> None:
         """Add a message, which the next flush writes. Times are in nanoseconds."""
 
     def flush(self) -> None:
-        """Write the pending messages; they survive the end of this process."""
+        """Write the pending messages. They survive the end of this process."""
 
     def close(self) -> None:
         """Write everything and close the file."""
 
 
 class RecordingFormat:
-    """A file format of recordings. A subclass describes one; its instances have no state.
+    """A file format of recordings. A subclass describes one format. Its instances have no state.
 
     Your own format overrides `name`, `suffixes` and `messages`, and is installed as an entry point of the group
     ``coframe.recordings``. All of coframe then reads such files: `open_bag`, the commands, the doctor, the viewer.
@@ -98,7 +98,7 @@ class RecordingFormat:
         return beginning.startswith(self.magic) if self.magic else path.suffix.lower() in self.suffixes
 
     def refusal(self, beginning: bytes) -> str:
-        """Return why a file that this format does not match cannot be read, such as an old version; "" otherwise."""
+        """Return why a file that this format does not match cannot be read, such as an old version, or "" otherwise."""
         del beginning
         return ""
 
@@ -180,6 +180,6 @@ class RecordingFormat:
 
 
 def bare_name(file: str) -> str | None:
-    """Return the name of a file without the number at its end; None if it has no number."""
+    """Return the name of a file without the number at its end, or None if it has no number."""
     bare, separator, number = file.rpartition("_")
     return bare if separator and number.isdigit() else None

@@ -106,7 +106,7 @@ class Ros1Storage(ChunkedStorage):
         yield from self._chunk_batches(chunk.offset)
 
     def _walk(self, chunks: list[int]) -> Iterator[tuple[int, int, dict[bytes, bytes], int, int]]:
-        """Yield offset, opcode, header, start and end of each record; continue at the next chunk after damage."""
+        """Yield offset, opcode, header, start and end of each record, and continue at the next chunk after damage."""
         offset, damaged = len(ROS1.magic), 0
         while offset < self.size:
             later = next_chunk(chunks, offset)
@@ -147,7 +147,7 @@ class Ros1Storage(ChunkedStorage):
         return sorted(info.offset for info in self._chunk_infos if len(ROS1.magic) < info.offset < self.size)
 
     def _record(self, offset: int, *, may_be_truncated: bool = True) -> tuple[dict[bytes, bytes], int, int]:
-        """Return the header of a record of the file and the start and end of its data; a chunk may be truncated."""
+        """Return the header of a record of the file and the start and end of its data. A chunk may be truncated."""
         length = self._length(offset)
         if length > _MAX_HEADER_BYTES:
             raise DamagedError("the header of the record is damaged")

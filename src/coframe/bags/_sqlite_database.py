@@ -89,7 +89,7 @@ class Database:
         Args:
             table: Its name.
             columns: The values to read from each row, as SQL.
-            condition: The rows to read, as an SQL condition after WHERE; "" for all.
+            condition: The rows to read, as an SQL condition after WHERE, or "" for all.
 
         Raises:
             sqlite3.Error: The database is damaged, or has no plain table of this name.
@@ -112,7 +112,7 @@ class Database:
                 yield row
 
     def last_row(self, table: str) -> int | None:
-        """Return the largest row ID of a table; None if it is empty."""
+        """Return the largest row ID of a table, or None if it is empty."""
         (number,) = self._query(f"SELECT max(rowid) FROM {table}").fetchone()  # noqa: S608 - as in `rows`
         if number is not None and not isinstance(number, int):
             raise sqlite3.DatabaseError(f"{table} has a column named rowid, which rosbag2 does not write")
@@ -129,7 +129,7 @@ class Database:
         return (low, high) if isinstance(low, int) and isinstance(high, int) else None
 
     def blob(self, table: str, column: str, row: int) -> bytes | None:
-        """Return the value of a row; None if there is no such row, or if its value is not a BLOB."""
+        """Return the value of a row, or None if there is no such row, or if its value is not a BLOB."""
         query = f"SELECT {column} FROM {table} WHERE rowid = ? AND typeof({column}) = 'blob'"  # noqa: S608 - as in `rows`
         found = self._query(query, (row,)).fetchone()
         return None if found is None else bytes(found[0])
@@ -184,12 +184,12 @@ class Database:
             self._connection.setlimit(getattr(sqlite3, f"SQLITE_LIMIT_{name}"), value)
 
     def _count_steps(self) -> bool:
-        """Count steps; return True to interrupt the query."""
+        """Count steps, and return True to interrupt the query."""
         self._steps -= _STEPS_PER_CHECK
         return self._steps < 0
 
     def _recover_journal(self, add_problem: Callable[[str], object]) -> sqlite3.Connection | None:
-        """Return a connection that also reads the journal of a killed or running recorder; None without a journal."""
+        """Return a connection that also reads the journal of a recorder, or None if there is no journal."""
         wal, journal, shared = (self._path.with_name(f"{self._path.name}-{kind}") for kind in ("wal", "journal", "shm"))
         try:
             there = [file for file in (wal, journal) if os.path.lexists(file) and _has_content(file)]

@@ -45,7 +45,7 @@ _DATA, _SIZE = (
 
 
 class SqliteStorage(Storage):
-    """A ``.db3`` file; the position of a message is its row ID."""
+    """A ``.db3`` file. The position of a message is its row ID."""
 
     format = SQLITE
 
@@ -123,7 +123,7 @@ class SqliteStorage(Storage):
             self.add_problem(f"the database is damaged and was read only in part: {error}")
 
     def _report_missing(self, total: int) -> None:
-        """Report how many messages are missing, of ``total`` ones; 0 if that is not known."""
+        """Report how many messages are missing, of ``total`` ones, or 0 if that is not known."""
         lost = max(total, self._last_row) - self._found
         missing = f"{count(lost, 'message')} of {total} missing" if total else f"{lost} missing before the last one"
         unknown = "" if total else "; how many come after it is unknown"
@@ -197,7 +197,7 @@ class SqliteStorage(Storage):
         self._bytes_left -= size
 
     def _batches_by_topic(self, rows: list[tuple[Any, ...]], *, with_data: bool) -> Iterator[Batch]:
-        """Yield one batch per topic; rows with a time or data of the wrong type are skipped."""
+        """Yield one batch per topic. Rows with a time or data of the wrong type are skipped."""
         _, topics, times, data = zip(*rows, strict=True)
         if set(map(type, times)) != {int} or None in data:
             good = [row for row in rows if isinstance(row[2], int) and row[3] is not None]

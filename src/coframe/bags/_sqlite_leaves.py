@@ -103,7 +103,7 @@ class Leaves:
         """Yield the rows of all leaves in the order of the file.
 
         Args:
-            max_bytes: Where to end the search, rounded up to a block of pages; None for the end of the file.
+            max_bytes: Where to end the search, rounded up to a block of pages, or None for the end of the file.
         """
         offset = 0
         self._bad_cells = 0

@@ -73,7 +73,7 @@ class SqliteWriter:
         definition_format: str,
         metadata: Mapping[str, str],
     ) -> int:
-        """Add a topic with messages of a type; return its number."""
+        """Add a topic with messages of a type, and return its number."""
         self.counts.append(0)
         qos = metadata.get("offered_qos_profiles", "")
         with _os_errors():
@@ -95,7 +95,7 @@ class SqliteWriter:
         self.pending += len(data)
 
     def flush(self) -> None:
-        """Write the pending messages; they survive the end of this process.
+        """Write the pending messages. They survive the end of this process.
 
         Raises:
             OSError: Writing failed, for example because the disk is full.

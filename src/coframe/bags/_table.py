@@ -37,7 +37,7 @@ class _NameColumn:
         self._numbers: dict[str, int] = {}
 
     def code(self, name: str) -> int:
-        """Return the code of a name; assign a new one if needed."""
+        """Return the code of a name, and assign a new one if needed."""
         return self._numbers.setdefault(name, len(self._numbers))
 
     @property

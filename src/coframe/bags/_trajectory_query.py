@@ -117,13 +117,13 @@ class TrajectoryQuery:
             yield self._look_up_poses(recording, stamps[start : start + BATCH])
 
     def gap_text(self, recording: Recording, stamps: NDArray[np.int64]) -> str:
-        """Return a message about poses in unusually long gaps; "" if there are none or `max_gap` is set."""
+        """Return a message about poses in unusually long gaps, or "" if there are none or `max_gap` is set."""
         if self.max_gap is not None:
             return ""
         return long_gap_text(recording.buffer, self.target, self.source, stamps)
 
     def validity_of(self, recording: Recording, poses: Transform) -> dict[str, NDArray[np.int64]]:
-        """Return how far poses are from the samples that they were computed from; see :meth:`coframe.Buffer.validity`.
+        """Return how far poses are from the samples that they were computed from. See :meth:`coframe.Buffer.validity`.
 
         Args:
             recording: The recording from which the poses were computed.

@@ -82,7 +82,7 @@ class Writer:
         path: The folder, which must not exist.
         compression: Compression of the chunks of MCAP files: ``zstd``, ``lz4`` or ``none``.
         storage: Format of the files: ``mcap`` or ``sqlite3``, as rosbag2 names them.
-        max_size: File size in bytes at which a new file is started; None for no limit.
+        max_size: File size in bytes at which a new file is started, or None for no limit.
         max_duration: Duration after which a new file is started, such as "10min", a timedelta or nanoseconds; None for
         no
             limit.
@@ -155,7 +155,7 @@ class Writer:
         definition: str | None = None,
         definition_format: str = "ros2msg",
     ) -> int:
-        """Add a topic; return its number, which is the same for the same name, type, encoding and definition.
+        """Add a topic, and return its number, which is the same for the same name, type, encoding and definition.
 
         Args:
             name: The name with a leading slash, such as "/tf".
@@ -221,7 +221,7 @@ class Writer:
             self.flush()
 
     def flush(self) -> None:
-        """Pass all messages to the operating system; they survive a crash of the process, but not a power failure.
+        """Pass all messages to the operating system. They survive a crash of the process, but not a power failure.
 
         Raises:
             RecordingError: The operating system reports an error, such as a full disk.
@@ -326,7 +326,7 @@ class Writer:
         file.start, file.end, file.count = self._file.start, self._file.end, self._file.count
 
     def _write_metadata(self) -> None:
-        """Write metadata.yaml; if the disk is full, the previous version is kept."""
+        """Write metadata.yaml. If the disk is full, the previous version is kept."""
         self._note_file()
         text = self._dump_yaml({"rosbag2_bagfile_information": self._metadata()})
         with suppress(OSError):

@@ -30,7 +30,7 @@ class Conversion(NamedTuple):
 
     Attributes:
         type: The ROS 2 type.
-        definition: Its definition, as ``ros2msg``; None for coframe's definition.
+        definition: Its definition, as ``ros2msg``, or None for coframe's definition.
         convert: Converts the bytes of a message. It raises an Exception if they are damaged.
     """
 
@@ -40,7 +40,7 @@ class Conversion(NamedTuple):
 
 
 def cdr_conversion(channel: Channel, types: RecordedTypes) -> Conversion | None:
-    """Return how the messages of a channel are converted to CDR; None if that is not possible.
+    """Return how the messages of a channel are converted to CDR, or None if that is not possible.
 
     If coframe's type has other fields, fields are matched by name, and new fields have default values. A type that
     coframe does not have, such as your own, keeps its name and fields.
@@ -113,7 +113,7 @@ def copied_definition(channel: Channel, types: RecordedTypes) -> tuple[str | Non
 
 
 def decode_transforms(convert: Callable[[bytes], bytes], data: bytes) -> list[TransformStamped]:
-    """Return the transforms of a TFMessage; an empty list if it is damaged.
+    """Return the transforms of a TFMessage, or an empty list if it is damaged.
 
     Args:
         convert: The function of :func:`cdr_conversion`.

@@ -89,7 +89,7 @@ def copy_recordings(
     Args:
         sources: Files, folders of rosbag2, or their URLs.
         target: The new folder, which must not exist.
-        topics: Names of the topics to copy; None for all. Each must exist in at least one recording.
+        topics: Names of the topics to copy, or None for all. Each must exist in at least one recording.
         span: Returns the first receive time and the end (excluded) of the messages of a recording, in nanoseconds.
         prefixes: A prefix for the frames and topics of each recording: ``["robot1/", "robot2/"]`` gives
             ``robot1/base_link`` and ``/robot1/scan``.
@@ -103,8 +103,8 @@ def copy_recordings(
         join: Whether frames and topics with the same names are joined even if they seem to be of different robots.
         storage: The format of the files, ``mcap`` or ``sqlite3``.
         compression: ``zstd``, ``lz4`` or ``none``; SQLite files are not compressed.
-        max_size: The size in bytes after which a new file begins; None for no limit.
-        max_duration: The duration after which a new file begins, such as "10min"; None for no limit.
+        max_size: The size in bytes after which a new file begins, or None for no limit.
+        max_duration: The duration after which a new file begins, such as "10min", or None for no limit.
         progress: Called regularly with the step (``reading`` or ``writing``) and the completed and total amount.
 
     Raises:
@@ -182,7 +182,7 @@ def _shift(first: Recording, recording: Recording, text: str) -> ClockShift | No
 
 
 def _selected_topics(recording: Recording, recordings: list[Recording], topics: list[str] | None) -> list[str]:
-    """Return the topics to copy from a recording; a topic that no recording contains is an error."""
+    """Return the topics to copy from a recording. A topic that no recording contains is an error."""
     if topics is None:
         return list(recording.topics)
     for topic in topics:
@@ -255,7 +255,7 @@ class _Copy:
             self._writer.write(route.topic, converted, received)
 
     def _route(self, recording: int, channel: Channel) -> _Route | None:
-        """Return the route of a channel; None if its messages cannot be converted."""
+        """Return the route of a channel, or None if its messages cannot be converted."""
         converted = cdr_conversion(channel, self._types)
         if channel.encoding == "ros1":
             if converted is None:

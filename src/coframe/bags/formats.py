@@ -95,7 +95,7 @@ class Sqlite(RecordingFormat):
         return SqliteStorage(path, problems)
 
     def create(self, path: Path, compression: str) -> FileWriter:
-        """Create a file; it is not compressed."""
+        """Create a file. It is not compressed."""
         from coframe.bags._sqlite_writer import SqliteWriter  # noqa: PLC0415 - see the base class
 
         del compression
@@ -156,7 +156,7 @@ def formats() -> tuple[RecordingFormat, ...]:
 
 
 def _find_problem(loaded: Any, others: list[RecordingFormat]) -> str:
-    """Return why an object is not the class of a new format, as the rest of a sentence; "" if it is one."""
+    """Return why an object is not the class of a new format, as the rest of a sentence, or "" if it is one."""
     if not (isinstance(loaded, type) and issubclass(loaded, RecordingFormat)):
         return "is not a subclass of coframe.bags.RecordingFormat"
     name, endings = getattr(loaded, "name", None), getattr(loaded, "suffixes", None)
@@ -190,7 +190,7 @@ def file_kinds() -> str:
 
 
 def matches(format_: RecordingFormat, path: Path, beginning: bytes) -> bool:
-    """Return whether a file with these first bytes is in a format; False if the class of another distribution fails."""
+    """Return whether a file with these first bytes is in a format. A plug-in that raises an error does not match."""
     if format_ in BUILT_IN:
         return format_.matches(path, beginning)
     try:

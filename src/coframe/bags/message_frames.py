@@ -41,7 +41,7 @@ class FrameNames:
 
     @classmethod
     def of(cls, channel: Channel, ros_type: str, types: RecordedTypes) -> FrameNames | None:
-        """Return a FrameNames for a channel's messages in CDR; None if the type is unknown."""
+        """Return a FrameNames for a channel's messages in CDR, or None if the type is unknown."""
         is_described = channel.encoding == "cdr" and channel.definition
         if not is_described and (known := known_class(ros_type)) is not None:
             return cls(known)

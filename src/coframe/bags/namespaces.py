@@ -38,7 +38,7 @@ class TransformChoice:
     """Selects the transforms of a recording to read, and the names of their frames.
 
     Attributes:
-        namespace: Read only the transforms of this namespace: ``/robot1`` for ``/robot1/tf``; None for all.
+        namespace: Read only the transforms of this namespace: ``/robot1`` for ``/robot1/tf``, or None for all.
         tf_topic: Read only the transforms on this topic and on ``tf_static_topic``. None means all topics, or ``/tf``
         if only the other topic is given.
         tf_static_topic: Read only the transforms on this topic and on ``tf_topic``. None means all topics, or
@@ -74,7 +74,7 @@ class TransformChoice:
 
     @property
     def renaming(self) -> _core.Renaming | None:
-        """The renaming of frames; None if they keep their names."""
+        """The renaming of frames, or None if they keep their names."""
         return renaming(self.prefix, self.keep)
 
     def selects(self, topic: str) -> bool:
@@ -139,7 +139,7 @@ class TransformCollector:
         self._namespaces: dict[str, _NamespaceTransforms] = {}
 
     def ingest(self, channel: Channel) -> Callable[[NDArray[np.int64], Slices], None] | None:
-        """Return a function that ingests a channel's messages with their receive times; None if they are not needed."""
+        """Return a function that ingests the messages of a channel, or None if they are not needed."""
         namespace = namespace_of(channel.topic)
         take = ingest_for(channel, self._renaming)
         if take is None or not self._choice.selects(channel.topic):
@@ -227,7 +227,7 @@ def _group_by_clock(buffer: Buffer) -> list[list[EdgeInfo]]:
 
 
 def main_clock_span(buffer: Buffer) -> tuple[int, int] | None:
-    """Return the first and last stamp on the clock that most transforms use; None without dynamic transforms."""
+    """Return the first and last stamp on the clock that most transforms use, or None without dynamic transforms."""
     clocks = _group_by_clock(buffer)
     if not clocks:
         return None

@@ -133,7 +133,7 @@ def _reopened(path: Readable, choice: TransformChoice, window: TimeWindow) -> Re
 
 
 class Recording:
-    """An open recording, as returned by :func:`open_bag`; a context manager. Reading is thread-safe.
+    """An open recording, as returned by :func:`open_bag`. It is a context manager. Reading is thread-safe.
 
     It can be pickled: another process opens the file again, by its absolute path or its URL.
 
@@ -215,12 +215,12 @@ class Recording:
 
     @property
     def received_start(self) -> int:
-        """Receive time of the first message in nanoseconds, on the recorder's clock; 0 if there is none."""
+        """Receive time of the first message in nanoseconds, on the recorder's clock, or 0 if there is none."""
         return 0 if self._received_span is None else self._received_span[0]
 
     @property
     def received_end(self) -> int:
-        """Receive time of the last message in nanoseconds, on the recorder's clock; 0 if there is none."""
+        """Receive time of the last message in nanoseconds, on the recorder's clock, or 0 if there is none."""
         return 0 if self._received_span is None else self._received_span[1]
 
     @property
@@ -236,7 +236,7 @@ class Recording:
     def messages(
         self, topic: str, start: StampLike | None = None, stop: StampLike | None = None
     ) -> Iterator[RecordedMessage]:
-        """Return an iterator over the messages on a topic in receive order; each one is read on demand.
+        """Return an iterator over the messages on a topic in receive order. Each one is read on demand.
 
         Args:
             topic: The name, with or without its leading slash.
@@ -296,7 +296,7 @@ class Recording:
         """Yield the messages on several topics in receive order.
 
         Args:
-            topics: Names of the topics; None for all.
+            topics: Names of the topics, or None for all.
             start: The first receive time in nanoseconds; earlier messages are skipped.
             stop: The end; messages received at this time or later are skipped.
 
@@ -344,7 +344,7 @@ class Recording:
         return self._index.to_ros_time(received)
 
     def message_at(self, topic: str, stamp: StampLike) -> RecordedMessage | None:
-        """Return the newest message of a topic at a time; None before the first one.
+        """Return the newest message of a topic at a time, or None before the first one.
 
         Args:
             topic: The name, with or without its leading slash.
@@ -358,7 +358,7 @@ class Recording:
         return None if row is None else self._read_message(name, row)
 
     def first_frame(self, topic: str) -> str:
-        """Return the frame_id in the header of a topic's first message, as published; "" if it has none.
+        """Return the frame_id in the header of a topic's first message, as published, or "" if it has none.
 
         Args:
             topic: The name, with or without its leading slash.
@@ -370,11 +370,11 @@ class Recording:
         return "" if first is None else self._frame(*first)
 
     def frames(self, topic: str, rows: Iterable[int] | None = None) -> list[str]:
-        """Return the frame_id in the headers of a topic's messages, as published; "" where there is none.
+        """Return the frame_id in the headers of a topic's messages, as published, or "" where there is none.
 
         Args:
             topic: The name, with or without its leading slash.
-            rows: The numbers of the messages in receive order, from 0; None for all.
+            rows: The numbers of the messages in receive order, from 0, or None for all.
 
         Raises:
             RecordingError: The topic does not exist.
@@ -392,7 +392,7 @@ class Recording:
         return "" if data is None else self._frame(channel, data)
 
     def may_have_header(self, topic: str) -> bool:
-        """Return whether messages on a topic have a field ``header``; True if their definition is unknown.
+        """Return whether messages on a topic have a field ``header``, or True if their definition is unknown.
 
         Args:
             topic: The name, with or without its leading slash.
@@ -603,7 +603,7 @@ class Recording:
                 yield message
 
     def _read_message(self, name: str, row: int) -> RecordedMessage | None:
-        """Return one message; None if it can no longer be read, which is added to the problems."""
+        """Return one message, or None if it can no longer be read, which is added to the problems."""
         data = self._index.read(name, row)
         if data is None:
             return None
@@ -618,7 +618,7 @@ class Recording:
         return self._decoders[key]
 
     def close(self) -> None:
-        """Close the files; the transforms remain available."""
+        """Close the files. The transforms remain available."""
         self._index.close()
         self._closing.close()
 
@@ -653,7 +653,7 @@ class Recording:
         return f"Recording({str(self.path)!r}, {len(self.topics)} topics, {seconds:.1f} s)"
 
     def show(self, **options: Any) -> Viewer:
-        """Show the recording in the viewer, or below the cell in a notebook; the same as :func:`coframe.show`.
+        """Show the recording in the viewer, or below the cell in a notebook. This is the same as :func:`coframe.show`.
 
         Args:
             options: The options of :func:`coframe.show`, such as ``fixed="map"``.

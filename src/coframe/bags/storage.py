@@ -83,7 +83,7 @@ class Batch(NamedTuple):
         channel: The channel on which the messages were recorded.
         received: Receive times, (N,) int64 nanoseconds.
         positions: Arguments for :meth:`Storage.read`, (N,) uint64.
-        messages: The bytes; None if they are not wanted and reading them would take time.
+        messages: The bytes, or None if they are not wanted and reading them would take time.
         is_intact: False if their checksum shows that some of their bytes have changed.
     """
 
@@ -207,7 +207,7 @@ def are_consistent(chunks: list[ListedChunk], begin: int, size: int) -> bool:
 
 
 def next_chunk(chunks: list[int], offset: int) -> int | None:
-    """Return the first chunk after an offset; None if there is none.
+    """Return the first chunk after an offset, or None if there is none.
 
     Args:
         chunks: The offsets of the chunks, sorted.

@@ -44,7 +44,7 @@ class SensorSummary(NamedTuple):
         topic: Name of the topic.
         frame: The frame_id of its first message.
         messages: Number of messages.
-        root: Root of the tree of that frame; "" if no transform contains the frame.
+        root: Root of the tree of that frame, or "" if no transform contains the frame.
         possible: Number of messages for whose stamps there is a transform.
         why_not: The error for the first stamp without a transform.
     """
@@ -121,7 +121,7 @@ def _edge(edge: EdgeInfo) -> EdgeSummary:
 
 
 def _sensor(recording: Recording, topic: RecordedTopic, trees: FrameTrees) -> SensorSummary | None:
-    """Return the summary of a sensor topic; None if its messages have no frame or cannot be decoded."""
+    """Return the summary of a sensor topic, or None if its messages have no frame or cannot be decoded."""
     frame = recording.frame(recording.first_frame(topic.name))
     if not frame:
         return None

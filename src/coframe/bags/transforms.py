@@ -63,7 +63,7 @@ class Ingest:
         self._renaming = renaming
 
     def names_begin_with_slash(self, messages: Slices) -> bool:
-        """Return whether the first parent in any TFMessage begins with a slash; False for other types."""
+        """Return whether the first parent in any TFMessage begins with a slash, or False for other types."""
         if not isinstance(self._decode, str):
             return False
         offsets = messages.starts + np.uint64(_FIRST_PARENT_OFFSET)
@@ -140,7 +140,7 @@ def is_static(topic: str) -> bool:
 
 
 def ingest_for(channel: Channel, renaming: _core.Renaming | None = None) -> Ingest | None:
-    """Return the Ingest for a channel's messages; None if they are not transforms."""
+    """Return the Ingest for a channel's messages, or None if they are not transforms."""
     kind = (channel.encoding, channel.type.replace("/msg/", "/"))
     if kind not in _DECODINGS:
         return None
@@ -195,7 +195,7 @@ def _protobuf_one(data: bytes | memoryview) -> Iterator[StampedValues]:
 
 
 def _protobuf_time(data: Any) -> int:
-    """Decode a google.protobuf.Timestamp; its fields are omitted if they are 0."""
+    """Decode a google.protobuf.Timestamp. Its fields are omitted if they are 0."""
     fields = dict(_fields(data))
     seconds = (fields.get(1, 0) + (1 << 63)) % (1 << 64) - (1 << 63)  # two's complement in 64 bits
     return int(seconds * time.SECOND + fields.get(2, 0))

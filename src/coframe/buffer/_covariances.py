@@ -50,7 +50,7 @@ class EdgeCovariances:
         self._matrices: list[Array] = []
 
     def add(self, stamps: list[int], matrices: Array) -> None:
-        """Store covariances, shape (N, 6, 6), with their stamps; a stamp that is known is replaced."""
+        """Store covariances, shape (N, 6, 6), with their stamps. A stamp that is known is replaced."""
         with self._lock:
             for stamp, matrix in zip(stamps, matrices, strict=True):
                 place = bisect.bisect_left(self._stamps, stamp)
@@ -125,7 +125,7 @@ def store_covariances(
 
 
 def set_covariance(buffer: _core.Buffer, parent: str, child: str, pose: Any, *, static: bool) -> None:
-    """Store the covariances of a message or transform without its poses; see :meth:`coframe.Buffer.set_covariance`."""
+    """Store the covariances of a message or transform without its poses. See :meth:`coframe.Buffer.set_covariance`."""
     given = pose if isinstance(pose, Transform) else Transform(pose)
     check_frames(parent, child, given)
     if given.covariance is None:
@@ -237,7 +237,7 @@ def _edges(buffer: _core.Buffer, pose: Transform, times: NDArray[np.int64]) -> I
 
 
 def _fill_missing_rows(pose: Transform) -> Transform:
-    """Return poses whose missing rows are the identity; the caller marks them in its result."""
+    """Return poses whose missing rows are the identity. The caller marks them in its result."""
     missing = ~np.isfinite(pose.translation).all(axis=-1)
     if not np.any(missing):
         return pose

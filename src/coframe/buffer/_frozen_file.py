@@ -49,7 +49,7 @@ BLOCK_SIZE = _CHUNKS_PER_WRITE * _CHUNK  # bytes that are written or checked at 
 
 
 class Header(NamedTuple):
-    """The first bytes of a file; the CRC-32 of these bytes follows them.
+    """The first bytes of a file. The CRC-32 of these bytes follows them.
 
     Attributes:
         magic: File signature; its line endings detect transfers in text mode.
@@ -80,7 +80,7 @@ _HEADER = struct.Struct("<8sIIIIqQQQQ")
 
 
 def save(snapshot: Buffer, path: str | os.PathLike[str]) -> None:
-    """Write a frozen buffer to a file; see :meth:`coframe.Buffer.save`."""
+    """Write a frozen buffer to a file. See :meth:`coframe.Buffer.save`."""
     try:
         with complete_or_absent(path) as part, part.open("wb") as file:
             _write(snapshot, file)

@@ -227,7 +227,7 @@ class Buffer(_core.Buffer):
         return gaps.validity(self, target, source, np.array(stamps_of(stamps), ndmin=1))
 
     def _check_gap(self, target: str, source: str, stamp: int, max_gap: DurationLike) -> None:
-        """Raise for a lookup over a longer gap; the native :meth:`lookup` calls this."""
+        """Raise for a lookup over a longer gap. The native :meth:`lookup` calls this."""
         gaps.check_gap(self, target, source, stamp, max_gap)
 
     def trajectory(
@@ -337,7 +337,7 @@ def _freeze(rows: Array, times: NDArray[np.int64], extrapolated: NDArray[np.int6
 
 
 def _is_row_array(out: Array, count: int) -> bool:
-    """Return whether poses can be written to `out` directly; False for matrices."""
+    """Return whether poses can be written to `out` directly, or False for matrices."""
     if out.dtype == np.float64 and out.shape in {(count, 7), (count, 4, 4)}:
         return out.ndim == 2 and out.flags.c_contiguous and out.flags.writeable
     raise ValueError(

@@ -84,7 +84,7 @@ def check_not_frozen(buffer: _core.Buffer, parent: str, child: str) -> None:
 def row_rejection_error(
     parent: str, child: str, row: int, rotation: NDArray[np.float64], text: str
 ) -> InvalidArgumentException:
-    """Return the error for a row of `set_many` that tf2 rejects; a zero quaternion is named as such.
+    """Return the error for a row of `set_many` that tf2 rejects. A zero quaternion is named as such.
 
     tf2 reports a zero quaternion as NaN, which is the result of its normalization.
     """

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class CallbackHandle:
-    """A registered callback, returned by :meth:`Buffer.on_change`; a context manager that removes it on exit.
+    """A registered callback, returned by :meth:`Buffer.on_change`. It is a context manager that removes it on exit.
 
     Example:
         >>> import coframe
@@ -48,7 +48,7 @@ class CallbackHandle:
 async def transform_or_timeout(
     buffer: Buffer, target: str, source: str, stamp: StampLike | None, timeout: DurationLike | None
 ) -> Transform | None:
-    """Wait in asyncio until a transform is available, and return it; return None after the timeout."""
+    """Wait in asyncio until a transform is available, and return it, or None after the timeout."""
     import asyncio  # noqa: PLC0415 - asyncio takes as long to import as all of coframe, and few programs need it
 
     loop = asyncio.get_running_loop()

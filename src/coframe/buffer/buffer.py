@@ -102,7 +102,7 @@ class Buffer(_many_lookups.Buffer):
                 of the transform. See :attr:`coframe.Transform.covariance`.
 
         Returns:
-            True if the sample was stored; False if it was older than the cache.
+            True if the sample was stored, or False if it was older than the cache.
 
         Raises:
             InvalidArgumentException: tf2 rejects the transform (empty or equal frame names, NaN, ...), with tf2's
@@ -223,7 +223,7 @@ class Buffer(_many_lookups.Buffer):
         source_time: StampLike | None,
         covariance: bool,
     ) -> Transform:
-        """Look up at two times, or with a covariance; the native :meth:`lookup` calls this."""
+        """Look up at two times, or with a covariance. The native :meth:`lookup` calls this."""
 
         def lookup(upper: str, lower: str, at: StampLike | None) -> Transform:
             return self.lookup(upper, lower, at, timeout=timeout, extrapolate=extrapolate, hold=hold, max_gap=max_gap)
@@ -339,11 +339,11 @@ class Buffer(_many_lookups.Buffer):
         return "screw" if self._along_screws else "decoupled"
 
     def snapshot(self, *, interpolation: Interpolation | None = None) -> Buffer:
-        """Return a frozen copy of the current buffer; the samples are shared, not copied.
+        """Return a frozen copy of the current buffer. The samples are shared, not copied.
 
         Args:
             interpolation: How the copy computes poses between two samples, such as ``"screw"`` for the buffer of a
-                recording; None for the same way.
+                recording, or None for the same way.
 
         Raises:
             ValueError: ``interpolation`` is unknown.
@@ -397,7 +397,7 @@ class Buffer(_many_lookups.Buffer):
         return f"Buffer(cache={cache}, frames={len(self.frame_names())})"
 
     def show(self, **options: Any) -> Viewer:
-        """Show the frames in the viewer, or below the cell in a notebook; the same as :func:`coframe.show`.
+        """Show the frames in the viewer, or below the cell in a notebook. This is the same as :func:`coframe.show`.
 
         Args:
             options: The options of :func:`coframe.show`, such as ``fixed="map"``.

@@ -134,7 +134,7 @@ class Dispatcher:
 
     @contextmanager
     def inserting(self) -> Iterator[None]:
-        """Return a context manager for insertions; on exit, it runs the callbacks of completed waits."""
+        """Return a context manager for insertions. On exit, it runs the callbacks of completed waits."""
         if self.is_idle:
             yield
             return
@@ -163,7 +163,7 @@ class Dispatcher:
                 raise
 
     def _remove_old_deadlines(self) -> None:
-        """Remove the deadlines of finished waits when there are many; they may be far in the future."""
+        """Remove the deadlines of finished waits when there are many. They may be far in the future."""
         if len(self._deadlines) <= 2 * len(self._entries) + _SPARE_DEADLINES:
             return
         old, self._deadlines = self._deadlines, []
@@ -181,7 +181,7 @@ class Dispatcher:
         return entry
 
     def _process(self, tokens: list[int], *, watches: bool) -> None:
-        """Run the callbacks of these tokens; only the dispatcher thread sets `watches` and runs those of watches."""
+        """Run the callbacks of these tokens. Only the dispatcher thread sets `watches` and runs those of watches."""
         tokens.reverse()
         try:
             while tokens:
@@ -224,7 +224,7 @@ class Dispatcher:
         """Run one iteration of the thread.
 
         Returns:
-            How long the thread may sleep, in nanoseconds (negative: without a limit); None if the thread may end.
+            How long the thread may sleep, in nanoseconds (negative: without a limit), or None if the thread may end.
         """
         with self._run_lock:
             tokens = self._mailbox.take()

@@ -21,12 +21,12 @@ class FrameInfo(NamedTuple):
 
     Attributes:
         name: Name of the frame.
-        parent: Parent frame of the newest sample; "" for the root of a tree or before any data.
+        parent: Parent frame of the newest sample, or "" for the root of a tree or before any data.
         static: Whether the transform is valid for all time.
         samples: Number of samples in the buffer.
-        oldest: Stamp of the oldest sample in nanoseconds; 0 if static or without data.
-        newest: Stamp of the newest sample in nanoseconds; 0 if static or without data.
-        rate: Samples per second over the length of the cache, as tf2 computes it; 0 if static.
+        oldest: Stamp of the oldest sample in nanoseconds, or 0 if static or without data.
+        newest: Stamp of the newest sample in nanoseconds, or 0 if static or without data.
+        rate: Samples per second over the length of the cache, as tf2 computes it, or 0 if static.
         authority: Publisher of the newest sample.
     """
 
@@ -44,7 +44,7 @@ class EdgeInfo(NamedTuple):
     """The state of the edge between a frame and its parent. All times are in nanoseconds.
 
     Attributes:
-        parent: Parent frame of the newest sample; "" before any data.
+        parent: Parent frame of the newest sample, or "" before any data.
         child: The child frame.
         static: Whether the transform is valid for all time; then the times and rates are 0 and the age is None.
         authority: Publisher of the newest sample.

@@ -74,7 +74,7 @@ class FrozenBuffer(Buffer):
             raise damaged(self._path, str(error)) from None
 
     def _copy_small_file(self, file: BinaryIO) -> mmap.mmap | None:
-        """Return a copy of a small file, which other programs cannot change; None for a large file."""
+        """Return a copy of a small file, which other programs cannot change, or None for a large file."""
         size = os.fstat(file.fileno()).st_size
         if size > MAX_COPIED:
             return None

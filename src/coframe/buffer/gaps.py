@@ -49,7 +49,7 @@ class Validity(NamedTuple):
         gaps: The longest interval between two samples over which the pose was interpolated, in nanoseconds:
             (N,); 0 at the stamps of samples and for static edges.
         outside: How far the time is before the first or after the last sample of an edge, in nanoseconds: (N,).
-        edges: The child frame of the edge with that gap, or else of the one that has no samples: (N,); "" for none.
+        edges: The child frame of the edge with that gap, or else of the one that has no samples: (N,), or "" for none.
     """
 
     gaps: NDArray[np.int64]
@@ -66,7 +66,7 @@ class _Gap(NamedTuple):
 
 
 def validity(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64]) -> Validity:
-    """Return how far the poses at these times are from samples; a stamp of 0 is the latest common time."""
+    """Return how far the poses at these times are from samples. A stamp of 0 is the latest common time."""
     times = np.where(stamps == 0, buffer.latest_common_time(target, source), stamps)
     gaps, outside = np.zeros(len(times), np.int64), np.zeros(len(times), np.int64)
     edges = np.full(len(times), "", dtype=object)
@@ -143,7 +143,7 @@ def long_gap_text(buffer: _core.Buffer, target: str, source: str, stamps: NDArra
 
 
 def in_long_gap(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64]) -> str:
-    """Return the child frame of an edge with an unusually long gap around one of the times; "" if there is none."""
+    """Return the child frame of an edge with an unusually long gap around one of the times, or "" if there is none."""
     for gap in _long_gaps(buffer, target, source):
         if ((stamps > gap.start) & (stamps < gap.end)).any():
             return gap.child
@@ -162,7 +162,7 @@ def note_gaps(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np
 
 
 def _long_gaps(buffer: _core.Buffer, target: str, source: str) -> list[_Gap]:
-    """Return the unusual gaps of all edges between two frames; they are computed once for each state of the buffer."""
+    """Return the unusual gaps of all edges between two frames. They are computed once for each state of the buffer."""
     known: dict[tuple[str, str], tuple[int, list[_Gap]]] = buffer.__dict__.setdefault("_Coframe__gaps", {})
     changes = buffer._changes
     if (cached := known.get((target, source))) is not None and cached[0] == changes:

@@ -101,7 +101,7 @@ class CommandLine(CommandGroup):
 
     @functools.cached_property
     def _plugins(self) -> dict[str, Plugin]:
-        """The plug-ins by the names of their commands; they cannot replace coframe's own commands."""
+        """The plug-ins by the names of their commands. They cannot replace coframe's own commands."""
         found = plugins(PLUGINS) if self._has_plugins else []
         return {plugin.name: plugin for plugin in found if plugin.name not in COMMANDS}
 

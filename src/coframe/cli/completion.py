@@ -58,7 +58,7 @@ def _without_errors(complete: Callable[..., _NamesT]) -> Callable[..., _NamesT |
 def complete_recordings(
     _ctx: click.Context, _parameter: click.Parameter, incomplete: str
 ) -> list[str] | list[CompletionItem]:
-    """Return the recordings whose paths begin with a text; if there are none, the shell completes the path."""
+    """Return the recordings whose paths begin with a text. If there are none, the shell completes the path."""
     from click.shell_completion import CompletionItem  # noqa: PLC0415 - only for completion
 
     return _recordings(incomplete) or [CompletionItem(incomplete, type="file")]

@@ -152,7 +152,7 @@ def demo(
 
 
 def _robot() -> Robot | None:
-    """Return the robot whose meshes the viewer shows; None if xacro is not installed; the demo works without it."""
+    """Return the robot whose meshes the viewer shows, or None if xacro is not installed. The demo works without it."""
     try:
         return load(ARM_XACRO)
     except CoframeError:

@@ -27,7 +27,7 @@ _MEBIBYTE = 1 << 20
 
 
 def examine_system(domain: int | None, listen: float, *, as_json: bool) -> None:
-    """Print the system report; end the command with exit code 0 or 1."""
+    """Print the system report, and end the command with exit code 0 or 1."""
     report = collect(domain, listen=listen)
     advice = advise(report)
     if as_json:

@@ -45,7 +45,7 @@ def tree(forest: Forest, changed: dict[str, str] | None = None, most: int | None
     Args:
         forest: The trees to show.
         changed: The kind of change of each frame to highlight.
-        most: Maximum number of rows; None for no limit.
+        most: Maximum number of rows, or None for no limit.
     """
     every = list(rows(forest))
     cut = every if most is None or len(every) <= most else every[: most - 1]

@@ -115,16 +115,14 @@ def run(
 @lab.command(short_help="Grade one student's folder, or a whole class.")
 @folder_argument
 @click.option("--all", "everyone", is_flag=True, help="Grade all folders in FOLDER, one per student.")
-@click.option(
-    "--output", "-o", metavar="ASSIGNMENT_FILE", type=PATH, help="With --all: write the grades as a CSV table."
-)
+@click.option("--output", "-o", metavar="FILE", type=PATH, help="With --all: write the grades as a CSV table.")
 @click.option(
     "--only", metavar="CRITERION", multiple=True, help=f"Check only this criterion: {', '.join(CRITERIA)}; repeatable."
 )
 @variant_option
 @click.option("--json", "as_json", is_flag=True, help="Print the report as JSON.")
-@click.option("--gradescope", metavar="ASSIGNMENT_FILE", type=PATH, help="Write Gradescope's results.json.")
-@click.option("--classroom", metavar="ASSIGNMENT_FILE", type=PATH, help="Write the result for GitHub Classroom.")
+@click.option("--gradescope", metavar="FILE", type=PATH, help="Write Gradescope's results.json.")
+@click.option("--classroom", metavar="FILE", type=PATH, help="Write the result for GitHub Classroom.")
 @click.option(
     "--record", metavar="FOLDER", type=PATH, help="Record all topics to this folder, for inspection in the viewer."
 )
@@ -287,7 +285,7 @@ def _run(
     port: int | None,
     names_silent: bool = False,
 ) -> None:
-    """Run programs and the viewer until Ctrl-C or for a given time; print the output of the programs.
+    """Run programs and the viewer until Ctrl-C or for a given time, and print the output of the programs.
 
     With `names_silent`, a message about each program that publishes nothing is printed after a few seconds.
     """
@@ -326,7 +324,7 @@ def _print_verdict(number: int, answer: str) -> None:
 def _check_class(
     folder: Path, output: Path | None, jobs: int, variant: int | None, only: tuple[str, ...], *, as_json: bool
 ) -> None:
-    """Grade the folders of a class; print a table or all reports, and write the table as CSV."""
+    """Grade the folders of a class, print a table or all reports, and write the table as CSV."""
     folders = submissions(folder)
     reports: dict[str, dict[str, Any]] = {}
     with (

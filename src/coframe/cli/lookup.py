@@ -177,7 +177,7 @@ def _gap_line(gap: Validity) -> str:
 
 
 def _look_up(buffer: Buffer, target: str, source: str, when: int, max_gap: int | None) -> Transform:
-    """Return the transform; print a warning if it is interpolated over an unusually long gap."""
+    """Return the transform, and print a warning if it is interpolated over an unusually long gap."""
     found = buffer.lookup(target, source, when, max_gap=max_gap)
     if max_gap is None:
         text = long_gap_text(buffer, target, source, np.array([found.stamp or 0], dtype=np.int64))
@@ -200,7 +200,7 @@ def _live_time_parser(window: int) -> Callable[[str, str], int]:
 
 
 def _wait_for_transform(transform: Callable[[], Transform], window: int) -> Transform:
-    """Return the transform as soon as it is available; after the timeout, raise the error of the last attempt."""
+    """Return the transform as soon as it is available. After the timeout, raise the error of the last attempt."""
     end = time.monotonic() + window / SECOND
     while True:
         try:
@@ -212,7 +212,7 @@ def _wait_for_transform(transform: Callable[[], Transform], window: int) -> Tran
 
 
 def _available_span(recording: Recording, frames: set[str]) -> str:
-    """Describe when the recording has transforms between all these frames; "" if it never does."""
+    """Describe when the recording has transforms between all these frames, or "" if it never does."""
     one, *others = sorted(frames)
     try:
         spans = [span for other in others if (span := recording.buffer.span(one, other)) != _UNLIMITED_SPAN]

@@ -201,13 +201,13 @@ def _classic_lines(observation: Observation, pair: Pair) -> Iterator[str]:
     for row in edge_statistics(observation):
         name = display_name(row.publisher) or "<no authority available>"
         frame = display_name(row.child)
-        yield f"Frame: {frame}, published by {name}, Average Delay: {_format_seconds(row.delay)}, Max Delay: "
-        f"{_format_seconds(row.delay_max)}"
+        delays = f"Average Delay: {_format_seconds(row.delay)}, Max Delay: {_format_seconds(row.delay_max)}"
+        yield f"Frame: {frame}, published by {name}, {delays}"
     yield _BROADCASTERS
     for node in publisher_statistics(observation):
         name, rate = display_name(node.publisher) or "<no authority available>", node.rate or 0.0
-        yield f"Node: {name} {rate:g} Hz, Average Delay: {_format_seconds(node.delay)} Max Delay: "
-        f"{_format_seconds(node.delay_max)}"
+        delays = f"Average Delay: {_format_seconds(node.delay)} Max Delay: {_format_seconds(node.delay_max)}"
+        yield f"Node: {name} {rate:g} Hz, {delays}"
 
 
 def _format_seconds(nanoseconds: float | None) -> str:

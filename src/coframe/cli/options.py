@@ -94,7 +94,7 @@ class Duration(int):
 
     @property
     def nanoseconds(self) -> int:
-        """The duration in nanoseconds; with this attribute, coframe's functions accept any duration."""
+        """The duration in nanoseconds. With this attribute, coframe's functions accept any duration."""
         return int(self)
 
     @property
@@ -142,7 +142,7 @@ def topic_name(name: str) -> str:
 
 
 def checked_prefix(prefix: str) -> str:
-    """Return the prefix; warn if it does not end with a slash, and end the command if it begins with one."""
+    """Return the prefix. Warn if it does not end with a slash, or end the command if it begins with one."""
     try:
         frame_names.renaming(prefix)
     except ValueError as error:

@@ -38,7 +38,7 @@ _REDIRECTED_WIDTH = 1000  # columns
 
 
 def fail(text: str, hint: str = "", *, code: int = 1, details: str = "") -> NoReturn:
-    """Print a one-line error, details and what to do; end the command with this exit code."""
+    """Print a one-line error, details and what to do, and end the command with this exit code."""
     click.echo(f"coframe: {one_line(text)}", err=True)
     if details:
         click.echo(printable(details), err=True)

@@ -134,7 +134,7 @@ def check_figure_package(path: Path) -> None:
 
 
 def save_figure(figure: Figure, path: Path) -> None:
-    """Write a figure; end the command if the file cannot be written."""
+    """Write a figure, and end the command if the file cannot be written."""
     try:
         figure.save(path)
     except OSError as error:

@@ -27,7 +27,7 @@ __all__ = ["item_progress", "reading_progress", "task_progress"]
 
 @contextmanager
 def reading_progress() -> Iterator[Callable[[int, int], object]]:
-    """Show how much of a file has been read; yield the ``progress`` callback of :func:`coframe.open_bag`."""
+    """Show how much of a file has been read, and yield the ``progress`` callback of :func:`coframe.open_bag`."""
     with _bar(DownloadColumn()) as bar:
         task = bar.add_task("reading", total=None)
         yield lambda done, total: bar.update(task, completed=done, total=total)
@@ -35,7 +35,7 @@ def reading_progress() -> Iterator[Callable[[int, int], object]]:
 
 @contextmanager
 def item_progress(description: str, total: int | None) -> Iterator[Callable[[int], object]]:
-    """Show how many of ``total`` items are done; yield a callback for the number done."""
+    """Show how many of ``total`` items are done, and yield a callback for the number done."""
     with _bar(MofNCompleteColumn()) as bar:
         task = bar.add_task(description, total=total)
         yield lambda done: bar.update(task, completed=done)
@@ -43,7 +43,7 @@ def item_progress(description: str, total: int | None) -> Iterator[Callable[[int
 
 @contextmanager
 def task_progress() -> Iterator[Callable[[str, int, int], object]]:
-    """Show a bar for each task; yield a callback for the task, the completed amount and the total."""
+    """Show a bar for each task, and yield a callback for the task, the completed amount and the total."""
     with _bar(TaskProgressColumn()) as bar:
         tasks: dict[str, TaskID] = {}
 

@@ -60,7 +60,7 @@ def check_has_transforms(recording: Recording) -> None:
 
 
 def parse_time(option: str, text: str, recording: Recording) -> int:
-    """Return the time given by an option, in nanoseconds; end the command if it is invalid."""
+    """Return the time given by an option, in nanoseconds, or end the command if it is invalid."""
     try:
         time_point = parse_time_point(text, recording.span)
     except ValueError as error:

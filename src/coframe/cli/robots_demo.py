@@ -55,7 +55,7 @@ def show_robots(
 
     Args:
         number_of_robots: Number of robots to start.
-        duration: Seconds after which the demo stops; None for until Ctrl-C.
+        duration: Seconds after which the demo stops, or None for until Ctrl-C.
         config: The common topics of the robots and the names of the frames.
         own_topics: Whether each robot publishes frames without a prefix on its own topics, which a relay merges. If
             False, all robots publish frames with a prefix on the same topics.
@@ -140,7 +140,7 @@ class _Row(NamedTuple):
 
     @property
     def problem(self) -> str:
-        """A description of this robot's problem; "" if there is none."""
+        """A description of this robot's problem, or "" if there is none."""
         if self.ended is not None:
             code = self.ended.exit_code
             return f"{self.name} stopped: its process ended with exit code {code}; its frames are stale"

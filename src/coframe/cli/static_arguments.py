@@ -23,7 +23,7 @@ NAMES = ("--frame-id", "--child-frame-id", "--domain", "--tf-topic", "--tf-stati
 
 
 class ArgumentError(ValueError):
-    """Invalid arguments; the messages are those of static_transform_publisher if it has one."""
+    """Invalid arguments. The messages are those of static_transform_publisher if it has one."""
 
 
 @dataclass

@@ -215,7 +215,7 @@ def _read(bag: Readable, choice: TransformChoice, progress: _ReadingProgress) ->
 
 @contextlib.contextmanager
 def optional_viewer(ros: Connection, port: int | None, *, browser: bool, robot: Robot | None = None) -> Iterator[None]:
-    """Show the viewer; print a warning instead if a package that it needs is not installed."""
+    """Show the viewer, and print a warning instead if a package that it needs is not installed."""
     try:
         viewer = show_in_browser(ros, port=port, robot=robot)
     except ViewerError as error:

@@ -222,7 +222,7 @@ def _watch(config: ListenerConfig, target: str, source: str, at: str | None, win
 
 
 def _lookup_time(at: str | None, clock: int | None, window: int) -> int | None:
-    """Return the time of a lookup in a window that ends now; None for the latest."""
+    """Return the time of a lookup in a window that ends now, or None for the latest."""
     if at is None:
         return None
     now = time.time_ns() if clock is None else clock
@@ -311,7 +311,7 @@ def _data(answer: _Answer) -> dict[str, Any]:
         "stamp_ns": found.stamp or None,
         "answered_ns": found.answered,
         "code": found.code or None,
-        "verdict_text": verdict_text(found),
+        "verdict": verdict_text(found),
         "text": found.text or None,
         "hint": with_doctor_command(_replace_advice(found, found.hint)) or None,
         "frames": list(found.frames),

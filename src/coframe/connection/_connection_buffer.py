@@ -21,7 +21,7 @@ _logger = logging.getLogger("coframe.wire")
 
 
 class ConnectionBuffer(Buffer):
-    """A buffer that receives transforms; it logs once that transforms stored by the program are not published."""
+    """A buffer that receives transforms. It logs once that transforms stored by the program are not published."""
 
     _has_explained = False
 

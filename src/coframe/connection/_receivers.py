@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The ways in which a connection can receive transforms; the first applicable row of `RECEIVERS` is used."""
+"""The ways in which a connection can receive transforms. The first applicable row of `RECEIVERS` is used."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Receiver(Protocol):
 
     @property
     def participant(self) -> Participant:
-        """The participant of the subscriptions to transforms; it joins the graph at its first use."""
+        """The participant of the subscriptions to transforms. It joins the graph at its first use."""
 
     @property
     def readers(self) -> list[TfReader]:
@@ -107,7 +107,7 @@ class SharedReceiver:
 
     @classmethod
     def open(cls, request: Request) -> SharedReceiver | None:
-        """Share the transforms; return None if this system cannot."""
+        """Share the transforms, or None if this system cannot."""
         try:
             return cls(request, SharedTransforms.join(request.config))
         except _core.SegmentError as error:
@@ -116,7 +116,7 @@ class SharedReceiver:
 
     @property
     def participant(self) -> Participant:
-        """The participant of the subscriptions; that of the connection if another process receives the transforms."""
+        """The participant of the subscriptions. If another process receives the transforms, that of the connection."""
         own = self.transforms.participant
         return own if own is not None else self._join_participant()
 

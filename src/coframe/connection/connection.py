@@ -76,12 +76,12 @@ class Connection:
 
     @property
     def participant(self) -> Participant:
-        """The participant of this process; with shared transforms, it is created on first use."""
+        """The participant of this process. With shared transforms, it is created on first use."""
         return self._join()[0]
 
     @property
     def node(self) -> GraphNode:
-        """The node; with shared transforms, it is created on first use."""
+        """The node. With shared transforms, it is created on first use."""
         return self._join()[1]
 
     @property
@@ -263,7 +263,7 @@ class Connection:
         return found and not self.awaited_statics()
 
     def show(self, **options: Any) -> Viewer:
-        """Show the live graph in the viewer, or below the cell in a notebook; the same as :func:`coframe.show`.
+        """Show the live graph in the viewer, or below the cell in a notebook. This is the same as :func:`coframe.show`.
 
         Args:
             options: The options of :func:`coframe.show`, such as ``fixed="map"``.

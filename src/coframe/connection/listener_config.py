@@ -42,7 +42,7 @@ class ListenerConfig:
     Attributes:
         tf_topic: The topic of dynamic transforms.
         tf_static_topic: The topic of static transforms.
-        prefix: The prefix of the frames in the buffer, used as given; "" for none.
+        prefix: The prefix of the frames in the buffer, used as given, or "" for none.
         keep: The frames without a prefix, sorted.
         cache: The length of the buffer's cache in nanoseconds; negative to keep everything.
         domain: The ROS domain, 0 to 232.
@@ -125,7 +125,7 @@ class ListenerConfig:
 
     @cached_property
     def renaming(self) -> _core.Renaming | None:
-        """The renaming of frames; None if they keep their names."""
+        """The renaming of frames, or None if they keep their names."""
         return frame_names.renaming(self.prefix, self.keep)
 
     def frame(self, name: str) -> str:

@@ -93,7 +93,7 @@ class MessageSubscription(Generic[M]):
         return self._subscription.matched
 
     def receive(self, timeout: DurationLike | None = None) -> M | None:
-        """Wait for the next message and return it; return None after the timeout or if the subscription is closed.
+        """Wait for the next message and return it, or None after the timeout or if the subscription is closed.
 
         Args:
             timeout: How long to wait, such as "100ms". If None, wait without a limit.
@@ -117,7 +117,7 @@ class MessageSubscription(Generic[M]):
             timeout: How long to wait, such as "100ms". If None, wait without a limit.
 
         Returns:
-            The message; None after the timeout or if the subscription is closed.
+            The message, or None after the timeout or if the subscription is closed.
 
         Raises:
             DecodeError: The received bytes are not a message of the announced type.
@@ -151,7 +151,7 @@ class MessageSubscription(Generic[M]):
         self._waiters.wake_waiters()
 
     def _take(self) -> M | None:
-        """Return the next message that has arrived; None if there is none."""
+        """Return the next message that has arrived, or None if there is none."""
         from coframe.messages.codec import deserialize  # noqa: PLC0415 - `import coframe` must be cheap
 
         # Messages are taken one by one, so that a message that cannot be decoded does not discard others.

@@ -116,7 +116,7 @@ class SharedTransforms:
 
     @classmethod
     def _open(cls, config: ListenerConfig, generation: int, on_mismatch: Mismatches) -> SharedTransforms | None:
-        """Open shared transforms that this process has not joined before; return None if they are outdated."""
+        """Open shared transforms that this process has not joined before, or None if they are outdated."""
         segment = open_segment(config, generation)
         if segment.outdated:
             segment.close()
@@ -313,7 +313,7 @@ def _remove_abandoned(folder: Path) -> None:
 
 
 def is_suspended(process: int) -> bool:
-    """Return whether a process is stopped by a signal or a debugger; False if that is unknown."""
+    """Return whether a process is stopped by a signal or a debugger, or False if that is unknown."""
     try:
         status = Path(f"/proc/{process}/stat").read_text(encoding="utf-8", errors="replace")
     except OSError:

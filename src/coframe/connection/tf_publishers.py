@@ -125,7 +125,7 @@ def tf_publisher(
 
     Args:
         statistics: Statistics of the messages received from the writer.
-        node: The full name of its node; None if it is unknown.
+        node: The full name of its node, or None if it is unknown.
         topic: The topic on which the writer publishes.
         static: Whether its transforms are static.
         is_present: Whether the writer is still on the graph.

@@ -154,7 +154,7 @@ class Confinement:
 
 
 def protection_problem(*, has_namespaces: bool) -> str:
-    """Describe the protection that this system lacks against a program; "" if protection is complete."""
+    """Describe the protection that this system lacks against a program, or "" if protection is complete."""
     sentences = []
     if not has_namespaces:
         sentences.append(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run a node of the lab with a fault; the arguments are the fault and the node."""
+"""Run a node of the lab with a fault. The arguments are the fault and the node."""
 
 from __future__ import annotations
 

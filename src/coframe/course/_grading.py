@@ -34,7 +34,7 @@ _SEARCHABLE_MODE = 0o711
 
 
 def main() -> None:
-    """Grade a folder; print the assignment and each completed criterion as lines of JSON.
+    """Grade a folder, and print the assignment and each completed criterion as lines of JSON.
 
     The argument is JSON: "folder"; "scratch", an empty folder; "variant", null for that of the folder; "only", the
     criteria; "number", that of the grade among those at the same time; "record", a folder for a recording or null; and

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The chapters of the handbook as notebooks; the Markdown files are the source.
+"""The chapters of the handbook as notebooks. The Markdown files are the source.
 
 A Python block becomes a cell, and so does a comment `<!-- notebook: ... -->`, which contains code for notebooks only.
 """

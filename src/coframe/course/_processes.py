@@ -54,7 +54,7 @@ def adopt_orphans() -> None:
 
 
 def children(of: int | None = None) -> list[int]:
-    """Return the child processes of a process, the oldest first; None for this process."""
+    """Return the child processes of a process, the oldest first, or None for this process."""
     parent = os.getpid() if of is None else of
     return sorted(each.pid for each in _entries() if each.parent == parent)
 
@@ -110,7 +110,7 @@ def shared_memory(running: Iterable[Process]) -> int:
 
 
 def own_memory() -> int:
-    """Return the resident memory of this process in bytes; 0 if the system does not list it."""
+    """Return the resident memory of this process in bytes, or 0 if the system does not list it."""
     return next((each.memory for each in _entries() if each.pid == os.getpid()), 0)
 
 

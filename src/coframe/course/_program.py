@@ -44,7 +44,7 @@ class StudentProgram:
 
     Attributes:
         file: The program.
-        violation: The limit that it exceeded, or the reason why it cannot be checked; "" if there is none.
+        violation: The limit that it exceeded, or the reason why it cannot be checked, or "" if there is none.
     """
 
     def __init__(self, file: Path, scratch: Path, confinement: Confinement) -> None:
@@ -111,7 +111,7 @@ class StudentProgram:
         return -signal.SIGKILL if self._exit_code is None else self._exit_code
 
     def is_running(self) -> bool:
-        """Return whether the program is running; end it if it has exceeded a limit."""
+        """Return whether the program is running, and end it if it has exceeded a limit."""
         if self._process is None or self._process.poll() is not None:
             return False
         if time.monotonic() - self._checked_at > _CHECK_PERIOD:
@@ -149,7 +149,7 @@ class StudentProgram:
                 os.kill(main, signal.SIGINT)
 
     def _find_main(self) -> int | None:
-        """Return the process of the student's code (a grandchild if it has namespaces); None before it exists."""
+        """Return the process of the student's code (a grandchild if it has namespaces), or None before it exists."""
         if self._main_process is None and self._process is not None:
             if not self._confinement.has_namespaces:
                 self._main_process = self._process.pid
@@ -163,7 +163,7 @@ class StudentProgram:
         return next(iter(_processes.children(self._process.pid)), None)
 
     def attempt(self) -> str:
-        """Return a message if the program tried to use solutions of the lab; "" if it did not."""
+        """Return a message if the program tried to use solutions of the lab, or "" if it did not."""
         return self._confinement.attempt(self.output())
 
     def output(self) -> bytes:
@@ -174,7 +174,7 @@ class StudentProgram:
             return b""
 
     def crash_reason(self) -> str:
-        """Return why a program exited prematurely; "" if it ran until it was stopped."""
+        """Return why a program exited prematurely, or "" if it ran until it was stopped."""
         if self.violation:
             return self.violation
         process = self._process

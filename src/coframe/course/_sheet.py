@@ -25,7 +25,7 @@ class Fact:
         points: The available points.
         earned: The earned points.
         expected: The behavior of a correct solution.
-        observed: The observed behavior; "" if all points were earned.
+        observed: The observed behavior, or "" if all points were earned.
         cause: The likely cause of lost points.
         read: Where to read about it.
     """
@@ -47,7 +47,7 @@ class Sheet:
         name: The name of the criterion.
         file: The checked file.
         bonus: Whether its points are added to the 100.
-        problem: Why the program could not be checked completely; "" if it could.
+        problem: Why the program could not be checked completely, or "" if it could.
         last_lines: The last lines of the program's output, if there was a problem.
         facts: The checked facts, each with its points and the observed behavior.
     """

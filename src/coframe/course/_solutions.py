@@ -47,7 +47,7 @@ def solution_folders() -> list[str]:
 
 
 def entry_files(folders: list[str]) -> list[str]:
-    """Return the readable files in these folders; they contain no solutions, and raise an error on import."""
+    """Return the readable files in these folders. They contain no solutions, and raise an error on import."""
     return [file for folder in folders if os.path.isfile(file := f"{folder}/__init__.py")]  # noqa: PTH113
 
 
@@ -94,7 +94,7 @@ class Decoys:
             os.close(self._events)
 
     def opened(self) -> str:
-        """Return the first file opened since the last call, such as "coframe.lab/tf_listener.py"; "" if none was."""
+        """Return the first file opened since the last call, such as "coframe.lab/tf_listener.py", or "" if none was."""
         found = ""
         for number, flags, name in self._read():
             if not flags & _IS_FOLDER:

@@ -91,7 +91,7 @@ class World:
         rclpy.shutdown()
 
     def publish(self, topic: str, message: Any, *, latched: bool = False) -> None:
-        """Publish a message; the publisher is created on first use."""
+        """Publish a message. The publisher is created on first use."""
         if topic not in self._publishers:
             publisher = self._node.create_publisher(type(message), topic, _qos(100, latched=latched))
             self._publishers[topic] = publisher
@@ -113,7 +113,7 @@ class World:
         self._publishers.clear()
 
     def watch(self, topic: str, message_class: Any, *, latched: bool = False) -> list[Received]:
-        """Subscribe to a topic until the program is stopped; return the list that receives its messages."""
+        """Subscribe to a topic until the program is stopped, and return the list that receives its messages."""
         received: list[Received] = []
 
         def store(message: Any) -> None:
@@ -154,7 +154,7 @@ class World:
                 self._intruders.setdefault(topic, set()).update(names)
 
     def start(self, program: StudentProgram) -> None:
-        """Start a program and wait until its node has joined the graph; the program may end earlier."""
+        """Start a program and wait until its node has joined the graph. The program may end earlier."""
         self._program = program
         self._intruders.clear()
         self._messages_before = self._messages

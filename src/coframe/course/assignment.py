@@ -44,7 +44,7 @@ class Assignment(NamedTuple):
     """The parameters that a student's nodes have to use. The defaults are those of the lab.
 
     Attributes:
-        variant: The seed of the variant; None for the lab's own parameters.
+        variant: The seed of the variant, or None for the lab's own parameters.
         base_height: The height of the first joint above base_link, in meters.
         link_lengths: The lengths of the two links, in meters.
         camera: The mount of the camera on the end effector.
@@ -70,7 +70,7 @@ class Assignment(NamedTuple):
 
 
 def assignment_of(variant: int | None) -> Assignment:
-    """Return the assignment of a variant; the same seed always gives the same assignment.
+    """Return the assignment of a variant. The same seed always gives the same assignment.
 
     Args:
         variant: Any integer, for example a student number. None for the lab's own parameters.
@@ -96,7 +96,7 @@ def assignment_of(variant: int | None) -> Assignment:
 
 
 def read_assignment(folder: Path) -> Assignment:
-    """Return the assignment of a student's folder; the lab's own if it has no file ``lab.json``.
+    """Return the assignment of a student's folder. The lab's own if it has no file ``lab.json``.
 
     Raises:
         CourseError: The file is damaged, or belongs to another lab.

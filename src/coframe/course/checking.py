@@ -224,7 +224,7 @@ class _Results(threading.Thread):
     Attributes:
         variant: The variant of the assignment.
         sheets: The completed criteria.
-        error: Why the folder cannot be graded, and what to do; None if it can.
+        error: Why the folder cannot be graded, and what to do, or None if it can.
         is_late: Whether the grade took too long.
     """
 

@@ -41,7 +41,7 @@ _FLAGS = ("--net", "--ipc", "--pid", "--fork", "--kill-child", "--mount-proc")
 
 
 def isolated_command(command: list[str]) -> list[str]:
-    """Return a command that runs in new namespaces; the command itself if namespaces are not available.
+    """Return a command that runs in new namespaces, or the command itself if namespaces are not available.
 
     When the first process of the namespaces ends, the system ends all others in them.
     """
@@ -68,7 +68,7 @@ def isolated_environment(number: int, home: Path) -> dict[str, str]:
 
 
 def isolation_problem() -> str:
-    """Describe the protection that the system lacks against graded programs; "" if protection is complete."""
+    """Describe the protection that the system lacks against graded programs, or "" if protection is complete."""
     return protection_problem(has_namespaces=bool(_unshare()))
 
 
@@ -78,7 +78,7 @@ def is_isolated() -> bool:
 
 
 def bring_loopback_up() -> None:
-    """Enable loopback and multicast in a newly created network namespace; do nothing elsewhere."""
+    """Enable loopback and multicast in a newly created network namespace. Do nothing elsewhere."""
     if not is_isolated():
         return
     import fcntl  # noqa: PLC0415 - not on Windows
@@ -90,7 +90,7 @@ def bring_loopback_up() -> None:
 
 
 def limit_disk(folder: Path) -> None:
-    """Mount a small memory disk on a folder in newly created namespaces; do nothing elsewhere."""
+    """Mount a small memory disk on a folder in newly created namespaces. Do nothing elsewhere."""
     if is_isolated():
         c_function("mount", b"coframe", os.fsencode(folder), b"tmpfs", 0, _DISK_OPTIONS)
 

@@ -58,7 +58,7 @@ def is_optical(edge: Edge) -> bool:
 
 
 def wrong_axes(observation: Observation, edge: Edge) -> WrongAxes | None:
-    """Return what is wrong with the axes of an optical frame; None if a camera can be mounted in this way."""
+    """Return what is wrong with the axes of an optical frame, or None if a camera can be mounted in this way."""
     if _is_body_of(edge.parent, edge.child):
         return _check_rep103_rotation(edge)
     chain = [edge] if is_base_frame(edge.parent) else [edge, *observation.mounts(edge.parent)]

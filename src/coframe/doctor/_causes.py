@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Causal relations between findings; a report lists consequences below their cause."""
+"""Causal relations between findings. A report lists consequences below their cause."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ CAUSES: tuple[tuple[str, str, bool], ...] = (
 
 
 def group_by_cause(findings: list[Finding]) -> list[Finding]:
-    """Return the causes with their consequences, the worst first; each consequence is below one cause only."""
+    """Return the causes with their consequences, the worst first. Each consequence is below one cause only."""
     causes = _causes(findings)
     below: dict[int, list[Finding]] = {}
     for position, cause in causes.items():

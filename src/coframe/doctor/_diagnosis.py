@@ -46,7 +46,7 @@ class SensorFacts(NamedTuple):
         sweep: The time from the stamp of a message to its last point, which also needs a transform; nanoseconds.
         possible: The numbers of messages that can be transformed immediately, and within 50, 100 and 200 ms of their
         arrival.
-        median_wait: The median wait of the messages that can be transformed, in nanoseconds; None if there are none.
+        median_wait: The median wait of the messages that can be transformed, in nanoseconds, or None if there are none.
         longest_wait: The longest wait of these messages.
     """
 
@@ -121,7 +121,7 @@ def diagnose(observation: Observation, *, ignore: Collection[str] = ()) -> Repor
 
 
 def _run_guarded(check: PluginCheck, observation: Observation) -> Iterator[Finding]:
-    """Yield the findings of a check of another distribution; an error in it becomes a note and ends only this check."""
+    """Yield the findings of a check of another distribution. An error in it becomes a note and ends only this check."""
     try:
         for finding in check.find(observation):
             _require_finding(finding, check.code)

@@ -26,7 +26,7 @@ _MIN_UNSET_STAMPS = 5  # transforms with the stamp 0
 
 @dataclass(frozen=True, eq=False)
 class Edge:
-    """The transforms of one edge that a buffer would store. Times are nanoseconds; rows are in the order of arrival.
+    """The transforms of one edge that a buffer would store. Times are nanoseconds. Rows are in the order of arrival.
 
     Attributes:
         parent: The parent frame, without a leading slash, as tf2 reads it.
@@ -107,7 +107,7 @@ class Edge:
 
     @cached_property
     def period(self) -> float:
-        """The usual period (see :func:`coframe.analysis.liveness.usual_period`); 0 for fewer than two stamps."""
+        """The usual period (see :func:`coframe.analysis.liveness.usual_period`), or 0 for fewer than two stamps."""
         return median_interval(self.intervals)
 
     @cached_property

@@ -19,7 +19,7 @@ __all__ = ["Finding", "Severity"]
 
 
 class Severity(IntEnum):
-    """The severity of a finding; with WARNING and ERROR, the exit code of `coframe doctor` is 1."""
+    """The severity of a finding. With WARNING and ERROR, the exit code of `coframe doctor` is 1."""
 
     NOTE = 1
     WARNING = 2
@@ -38,10 +38,10 @@ class Finding:
         severity: How serious the problem is.
         text: The problem, with values, but without the names of the edge and the publishers.
         fix: What to do: the command to run, or the line of code to change.
-        edge: The edge as (parent, child); None if the finding concerns something else.
+        edge: The edge as (parent, child), or None if the finding concerns something else.
         frames: The affected frames, including the frames of the edge; used to find its cause.
         topic: The topic that it concerns, or "".
-        first_stamp: The stamp of the first affected transform or message, in nanoseconds; None if there is none.
+        first_stamp: The stamp of the first affected transform or message, in nanoseconds, or None if there is none.
         publishers: The full names of the affected publishers, as far as they are known.
         explains: Its consequences: findings that disappear with this one.
         harm: Why it matters, if it differs from the page of the code.

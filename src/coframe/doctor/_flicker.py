@@ -47,7 +47,7 @@ class Flicker(NamedTuple):
 
 
 def flicker(edge: Edge) -> Flicker | None:
-    """Return the flicker of an edge that repeatedly jumps away and back; None if it does not."""
+    """Return the flicker of an edge that repeatedly jumps away and back, or None if it does not."""
     if edge.count < _MIN_JUMPS + 2:
         return None
     # The usual step is computed only if there are enough large steps, because it takes most of the time.
@@ -75,14 +75,14 @@ def flicker(edge: Edge) -> Flicker | None:
 
 
 def alternation_cause(edge: Edge, found: Flicker) -> str:
-    """Return a clause with the mistake that explains how the two poses differ; "" if no usual mistake does."""
+    """Return a clause with the mistake that explains how the two poses differ, or "" if no usual mistake does."""
     rows = found.rows[: 2 * _MAX_COMPARED : 2]  # every second jump returns
     explained = explain_mutual_difference(edge.poses(rows), edge.poses(rows + 1), **_tolerances(edge))
     return f"; {explained[0].text('the other', 'one of them')}" if explained else ""
 
 
 def jump_cause(edge: Edge, rows: NDArray[np.intp]) -> Explanation | None:
-    """Return the mistake that explains jumps after given rows, compared with the pose before; None if none does.
+    """Return the mistake that explains jumps after given rows, compared with the pose before, or None if none does.
 
     A single jump is explained only by a mistake that poses do not match by chance.
     """

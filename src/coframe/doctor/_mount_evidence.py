@@ -170,7 +170,7 @@ _HEMISPHERE_AXIS = np.array([0.1234, 0.3456, 0.5678, 1.0])  # A quaternion and i
 
 
 def _acceleration_at_rest(imu: ObservedImu) -> Array | None:
-    """Return the direction of the acceleration of an IMU at rest, in its frame; None if it was not at rest."""
+    """Return the direction of the acceleration of an IMU at rest, in its frame, or None if it was not at rest."""
     size = np.linalg.norm(imu.acceleration, axis=1)
     still = (np.linalg.norm(imu.rates, axis=1) < _MAX_STILL_RATE) & (np.abs(size - _GRAVITY) < _MAX_GRAVITY_ERROR)
     if np.count_nonzero(still) < max(_MIN_STILL_MESSAGES, len(still) // 2):

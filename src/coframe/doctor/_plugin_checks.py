@@ -59,7 +59,7 @@ def plugin_checks() -> dict[str, PluginCheck]:
 
 
 def _problem(code: Any, find: Any, page: Any) -> str:
-    """Return why a module is not a valid check, as the rest of a sentence; "" if it is valid."""
+    """Return why a module is not a valid check, as the rest of a sentence, or "" if it is valid."""
     if not isinstance(code, str) or not _CODE.fullmatch(code):
         return f"has no CODE such as 'ACME001', with other letters than TF, but {code!r}"
     if not callable(find):

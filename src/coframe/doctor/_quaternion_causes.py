@@ -35,7 +35,7 @@ class Cause(NamedTuple):
 
 
 def likely_cause(quaternions: NDArray[np.float64]) -> Cause | None:
-    """Return the mistake that explains all given quaternions; None if there is none.
+    """Return the mistake that explains all given quaternions, or None if there is none.
 
     Args:
         quaternions: (N, 4) x, y, z, w; finite, not 0, and not normalized.

@@ -26,7 +26,7 @@ def parse_robot(text: str) -> Robot:
 
 
 def model(observation: Observation) -> Robot | None:
-    """Return the robot of the newest valid description; None if there is none."""
+    """Return the robot of the newest valid description, or None if there is none."""
     for text in reversed(observation.descriptions):
         try:
             return parse_robot(text)

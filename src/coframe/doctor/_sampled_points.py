@@ -48,7 +48,7 @@ def sampled_points(recording: Recording, topic: str, type_: str) -> tuple[Observ
 
 
 def _sample(recording: Recording, topic: str, stamp: int, period: int) -> ObservedPoints | None:
-    """Return the points of the message with a stamp; None if it is damaged or has other fields."""
+    """Return the points of the message with a stamp, or None if it is damaged or has other fields."""
     try:
         recorded = recording.message_at(topic, stamp)
         if recorded is None:

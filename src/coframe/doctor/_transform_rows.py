@@ -26,7 +26,7 @@ class TransformRows:
     times per second, and fragmentation would increase the memory of long-running processes.
 
     Attributes:
-        forgotten_until: The arrival time of the last row removed because of the limit; 0 if none was.
+        forgotten_until: The arrival time of the last row removed because of the limit, or 0 if none was.
     """
 
     def __init__(self) -> None:

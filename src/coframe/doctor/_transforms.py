@@ -38,7 +38,7 @@ class Transforms:
         names: The names of the frames, with the prefix if one was given; a name that was published with and without a
             leading slash occurs twice.
         sent: The names as published; empty if they are the same.
-        publishers: Full names of nodes; "" for an unknown publisher.
+        publishers: Full names of nodes, or "" for an unknown publisher.
     """
 
     arrived: NDArray[np.int64]
@@ -103,7 +103,7 @@ class Transforms:
 
     @property
     def pairs(self) -> NDArray[np.int64]:
-        """The pairs of names that occur, as numbers; see :meth:`pair`."""
+        """The pairs of names that occur, as numbers. See :meth:`pair`."""
         return self._number_pairs[0]
 
     @property
@@ -123,7 +123,7 @@ class Transforms:
 
 
 def number_names(known: dict[str, int], names: Iterable[str]) -> NDArray[np.int64]:
-    """Return the numbers of names; new names are added to `known` with the next number."""
+    """Return the numbers of names. New names are added to `known` with the next number."""
     return np.array([known.setdefault(name, len(known)) for name in names], dtype=np.int64)
 
 

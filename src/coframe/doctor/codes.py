@@ -37,7 +37,7 @@ class Page(NamedTuple):
 
     @property
     def location(self) -> str:
-        """The page and section of the documentation site that describe the code; "" for one of another distribution."""
+        """The page and section of the documentation site that describe the code, or "" for the code of a plug-in."""
         if self.code not in built_in_codes():
             return ""
         return f"reference/doctor-codes.html#{self.code.lower()}"

@@ -66,7 +66,7 @@ class Collector:
             columns: The transforms.
             arrived: (M,) time of arrival of each message.
             publisher: (M,) number of the publisher of each message.
-            publishers: The names of the publishers; "" for one that is unknown.
+            publishers: The names of the publishers, or "" for one that is unknown.
         """
         self.messages[topic] = self.messages.get(topic, 0) + len(arrived)
         self.damaged += columns.damaged
@@ -97,7 +97,7 @@ class Collector:
 
     @property
     def forgotten_until(self) -> int:
-        """The arrival time of the last transform removed because of the limit; 0 if none was."""
+        """The arrival time of the last transform removed because of the limit, or 0 if none was."""
         return max(self._static.forgotten_until, self._dynamic_rows.forgotten_until)
 
     def transforms(self) -> Transforms:

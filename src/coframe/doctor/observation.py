@@ -89,7 +89,7 @@ class ObservedPoints:
         topic: The topic on which the message was published.
         frame: The frame in which they are expressed.
         stamp: The stamp of the message.
-        sweep: The time from the stamp to the last point; 0 if the points have no times.
+        sweep: The time from the stamp to the last point, or 0 if the points have no times.
         times: (N,) the time of each point.
         points: (N, 3) coordinates in meters.
     """
@@ -112,9 +112,9 @@ class Sensor:
         frame: The frame in which they are expressed, without a leading slash.
         stamp: (N,) stamps of their headers.
         arrived: (N,) times of their arrival.
-        publisher: The full name of the node; "" if it is unknown.
+        publisher: The full name of the node, or "" if it is unknown.
         publishers: The full names of all nodes that published these messages, as far as they are known.
-        source: (N,) index into `publishers` for each message; -1 if the node is unknown.
+        source: (N,) index into `publishers` for each message, or -1 if the node is unknown.
         points: The points of some messages of a lidar, from recordings only.
     """
 
@@ -130,7 +130,7 @@ class Sensor:
 
     @cached_property
     def sweep(self) -> int:
-        """The usual time from the stamp to the last point of a message; 0 if its points have no times."""
+        """The usual time from the stamp to the last point of a message, or 0 if its points have no times."""
         return int(np.median([one.sweep for one in self.points])) if self.points else 0
 
 
@@ -221,7 +221,7 @@ class Observation:
         positions: The positions in messages with poses, one entry per topic; recordings only.
         poses: The poses of odometry topics, one entry per topic; recordings only.
         imus: The first messages of each IMU; recordings only.
-        clock: Simulated time; None without /clock.
+        clock: Simulated time, or None without /clock.
         travel: The transport times of the transforms of each publisher, measured with the clocks of two machines; only
         live.
         log: Messages of nodes on /rosout.
@@ -318,7 +318,7 @@ class Observation:
         return self.end - int(edge.arrived[-1])
 
     def is_stale(self, edge: Edge) -> bool:
-        """Return whether an edge was stale at the end; False if its child frame had another parent by then."""
+        """Return whether an edge was stale at the end, or False if its child frame had another parent by then."""
         is_current = self.last[edge.child] is edge
         return is_current and is_stale(self.silence(edge), edge.period, static=edge.static)
 
@@ -338,7 +338,7 @@ class Observation:
         return {frame: self.structure.root(frame) for frame in self.frames}
 
     def root(self, frame: str) -> str:
-        """Return the root of the tree of a frame; the frame itself if no transform contains it."""
+        """Return the root of the tree of a frame, or the frame itself if no transform contains it."""
         return self.structure.root(frame)
 
     def path(self, frame: str) -> list[Edge]:
@@ -384,7 +384,7 @@ class Observation:
 
     @cached_property
     def usual_clock(self) -> str:
-        """The clock of most edges and sensors, if equal the known one; "" if there are none with stamps."""
+        """The clock of most edges and sensors, if equal the known one, or "" if there are none with stamps."""
         counts: dict[str, int] = {}
         for clock in self.clocks.values():
             counts[clock] = counts.get(clock, 0) + 1
@@ -430,7 +430,7 @@ class Observation:
         return clock_of(float(np.median(arrived - stamp)), simulated)
 
     def lags(self, stamp: NDArray[np.int64], arrived: NDArray[np.int64]) -> NDArray[np.int64] | None:
-        """Return the delays from stamp to arrival on the clock of the stamps; None if that clock is unknown."""
+        """Return the delays from stamp to arrival on the clock of the stamps, or None if that clock is unknown."""
         clock = self.clock_of(stamp, arrived)
         if clock == "simulated" and self.clock is not None:
             return self.clock.at(arrived) - stamp

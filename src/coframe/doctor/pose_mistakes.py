@@ -85,8 +85,8 @@ class Explanation(NamedTuple):
     Attributes:
         reading: The clause after "if": what makes the published pose right.
         fix: What to do, without the right values.
-        meters: The distance that remains, as the median of all rows; NaN if only the rotation is explained.
-        radians: The angle that remains; NaN if only the translation is explained.
+        meters: The distance that remains, as the median of all rows, or NaN if only the rotation is explained.
+        radians: The angle that remains, or NaN if only the translation is explained.
         rank: How special the mistake is: a lower number is a less ambiguous mistake.
     """
 
@@ -122,7 +122,7 @@ class Correction(NamedTuple):
 def explain(
     published: Array, expected: Array, *, meters: float = _MAX_DISTANCE, radians: float = _MAX_ANGLE
 ) -> Explanation | None:
-    """Return the mistake that makes the expected poses the published ones; None if no usual mistake does.
+    """Return the mistake that makes the expected poses the published ones, or None if no usual mistake does.
 
     Args:
         published: (N, 7) poses, with unit quaternions.
@@ -164,7 +164,7 @@ def explain_mutual_difference(
     """Return the least ambiguous mistake that explains how two poses differ, either of which may be the wrong one.
 
     Returns:
-        The mistake, and whether it is in the first poses; None if no usual mistake explains the difference.
+        The mistake, and whether it is in the first poses, or None if no usual mistake explains the difference.
     """
     limits = {"meters": meters, "radians": radians}
     found = [(explain(first, second, **limits), True), (explain(second, first, **limits), False)]

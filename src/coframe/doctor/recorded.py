@@ -259,7 +259,7 @@ class _Facts:
             yield np.array(found).reshape(-1, 3)
 
     def _joints(self, topic: str) -> ObservedJointStates | None:
-        """Return the joint states of a topic; None if its messages have other fields."""
+        """Return the joint states of a topic, or None if its messages have other fields."""
         if not self._recording.may_have_header(topic):
             return None
         messages = list(self._decoded(topic, _MAX_DECODED))
@@ -270,7 +270,7 @@ class _Facts:
             return None
 
     def _poses(self, topic: str) -> ObservedPoses | None:
-        """Return the first poses of an odometry topic; None if its messages have other fields or frames."""
+        """Return the first poses of an odometry topic, or None if its messages have other fields or frames."""
         try:
             rows = [
                 (message.header, message.child_frame_id, message.pose.pose)
@@ -294,7 +294,7 @@ class _Facts:
         return ObservedPoses(topic, rename(frame), rename(child), stamp[good], values[good])
 
     def _imu(self, topic: str) -> ObservedImu | None:
-        """Return the first messages of an IMU; None if they have other fields."""
+        """Return the first messages of an IMU, or None if they have other fields."""
         frame = self._recording.first_frame(topic).lstrip("/")
         try:
             pairs = [

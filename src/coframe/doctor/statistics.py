@@ -29,12 +29,12 @@ _CHAIN_SAMPLES = 1000
 
 
 class EdgeStatistics(NamedTuple):
-    """The transforms of one edge from one publisher. Times are nanoseconds; None where undefined.
+    """The transforms of one edge from one publisher. Times are nanoseconds, or None where undefined.
 
     Attributes:
         parent: The parent frame.
         child: The child frame.
-        publisher: The full name of the node; "" if it is unknown.
+        publisher: The full name of the node, or "" if it is unknown.
         static: Whether the edge is static, so that rate, delay and age are undefined.
         transforms: The number of transforms.
         rate: Transforms per second, by their arrival.
@@ -76,11 +76,11 @@ class ChainStatistics(NamedTuple):
 
     Attributes:
         frames: The frames from the target to the source.
-        delay: The mean age of the latest common time during the observation; None if all edges are static, or if an
+        delay: The mean age of the latest common time during the observation, or None if all edges are static, or if an
             edge has no data.
         delay_p99: The 99th percentile of this age.
         delay_max: The maximum age.
-        limit: The edge, as (parent, child), that limits the latest common time most often; None if all edges are
+        limit: The edge, as (parent, child), that limits the latest common time most often, or None if all edges are
             static.
         limit_share: The share of the time for which it does, from 0 to 1.
     """
@@ -121,7 +121,7 @@ def publisher_statistics(observation: Observation) -> list[PublisherStatistics]:
 
 
 def chain_statistics(observation: Observation, target: str, source: str) -> ChainStatistics | None:
-    """Return the statistics of the chain between two frames; None if they are not connected."""
+    """Return the statistics of the chain between two frames, or None if they are not connected."""
     frames = observation.structure.chain(target, source)
     if frames is None:
         return None

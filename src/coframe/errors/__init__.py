@@ -153,7 +153,7 @@ class TransformException(CoframeError):  # noqa: N818 - tf2's name
 
     @property
     def code(self) -> str:
-        """The kind of failure, such as ``too_new`` or ``not_connected``; "" if no lookup failed."""
+        """The kind of failure, such as ``too_new`` or ``not_connected``, or "" if no lookup failed."""
         return self._facts.code
 
     @property
@@ -168,7 +168,7 @@ class TransformException(CoframeError):  # noqa: N818 - tf2's name
 
     @property
     def requested(self) -> int | None:
-        """The requested time in nanoseconds; None if the failure does not depend on time."""
+        """The requested time in nanoseconds, or None if the failure does not depend on time."""
         return self._facts.requested
 
     @property
@@ -194,7 +194,7 @@ class TransformException(CoframeError):  # noqa: N818 - tf2's name
 
     @property
     def doctor_code(self) -> str:
-        """The code of the doctor's page about this problem, such as ``"TF013"``; "" if there is none."""
+        """The code of the doctor's page about this problem, such as ``"TF013"``, or "" if there is none."""
         failure = self._failure
         return self._details.doctor_code if failure is None else _doctor_code(failure)
 
@@ -220,7 +220,7 @@ class ConnectivityException(TransformException):
 
 
 class ExtrapolationException(TransformException):
-    """There is no sample at the requested time; tf2 never extrapolates."""
+    """There is no sample at the requested time. tf2 never extrapolates."""
 
 
 class InvalidArgumentException(TransformException):
@@ -252,15 +252,15 @@ class ViewerError(_HintedError, RuntimeError):
 
 
 class DecodeError(_HintedError, ValueError):
-    """Bytes that do not match their type; the message gives the type, the position and the expected value."""
+    """Bytes that do not match their type. The message gives the type, the position and the expected value."""
 
 
 class _FileError(_HintedError, ValueError):
     """Base class of errors in a text file.
 
     Attributes:
-        line: Line number, counted from 1; None if the problem has no single line.
-        file: Name of the file; None for text that does not come from a file.
+        line: Line number, counted from 1, or None if the problem has no single line.
+        file: Name of the file, or None for text that does not come from a file.
     """
 
     def __init__(self, text: str, *, line: int | None = None, file: str | None = None, hint: str = "") -> None:
@@ -338,7 +338,7 @@ def _doctor_code(failure: Failure) -> str:
 
 
 def _mistaken_unit(failure: Failure | TransformException) -> str:
-    """Return the unit in which the requested time lies within the samples of the edge; "" for nanoseconds."""
+    """Return the unit in which the requested time lies within the samples of the edge, or "" for nanoseconds."""
     if failure.requested is None or failure.earliest is None or failure.latest is None:
         return ""
     requested, earliest, latest = failure.requested, failure.earliest, failure.latest
@@ -348,7 +348,7 @@ def _mistaken_unit(failure: Failure | TransformException) -> str:
 
 
 def _hint_for_time(failure: Failure, parent: str, child: str) -> str:
-    """Return the hint for a time on another clock, or outside the samples of a recording; "" for other failures."""
+    """Return the hint for a time on another clock, or outside the samples of a recording, or "" for other failures."""
     requested, earliest, latest = failure.requested, failure.earliest, failure.latest
     if failure.code not in {"too_old", "too_new"} or requested is None or earliest is None or latest is None:
         return ""

@@ -79,7 +79,7 @@ _HINTS = {
 
 
 def hint(failure: str, **facts: str) -> str:
-    """Return the hint for a failure, which ends with the code of the doctor's page; "" for a failure without a hint.
+    """Return the hint for a failure, which ends with the code of the doctor's page, or "" for a failure without a hint.
 
     Args:
         failure: The failure's code, such as ``too_new``.
@@ -94,6 +94,6 @@ def hint(failure: str, **facts: str) -> str:
 
 
 def doctor_code(failure: str) -> str:
-    """Return the code of the doctor's page about a failure, such as ``TF013``; "" if there is none."""
+    """Return the code of the doctor's page about a failure, such as ``TF013``, or "" if there is none."""
     found = _HINTS.get(failure)
     return found.code if found else ""

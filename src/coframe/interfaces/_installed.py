@@ -59,7 +59,7 @@ def installed_packages() -> list[InstalledPackage]:
 
 
 def _folder(plugin: Plugin) -> Path | None:
-    """Return the folder of a Python package, without importing it; None if it has no definitions."""
+    """Return the folder of a Python package, without importing it, or None if it has no definitions."""
     top, *inner = plugin.target.partition(":")[0].split(".")
     folders = [Path(folder, top) for folder in filter(None, sys.path)]
     if inner and not any((folder / Path(*inner)).is_dir() for folder in folders):

@@ -36,7 +36,7 @@ class Definition(NamedTuple):
 
     Attributes:
         text: Its definition.
-        file: The file that contains it; None if it is part of coframe.
+        file: The file that contains it, or None if it is part of coframe.
     """
 
     text: str
@@ -75,7 +75,7 @@ def read(path: Path) -> Definition:
 
 
 def package_name(folder: Path) -> str | None:
-    """Return the package name of a folder: from its ``package.xml``, or the folder name; None if invalid."""
+    """Return the package name of a folder: from its ``package.xml``, or the folder name, or None if invalid."""
     name, manifest = folder.name, folder / "package.xml"
     if exists(manifest):
         try:

@@ -97,7 +97,7 @@ def _sources(starts: tuple[Path, ...], given: str, package_path: str, prefixes: 
 
 
 def find_folder(package: str) -> Path | None:
-    """Return the folder of a user's interface package; None if there is none."""
+    """Return the folder of a user's interface package, or None if there is none."""
     for source in sources():
         if source.package:
             if source.package == package:
@@ -145,7 +145,7 @@ def _index(source: InterfaceFolder) -> dict[str, Path]:
 
 
 def _package_candidates(root: Path, depth: int) -> Iterator[Path]:
-    """Yield folders that may be packages, level by level; the folders inside a package are not searched."""
+    """Yield folders that may be packages, level by level. The folders inside a package are not searched."""
     level, left = [root], _MAX_FOLDERS
     for _ in range(depth + 1):
         below: list[Path] = []

@@ -70,7 +70,7 @@ def _is_installed(folder: Path) -> bool:
 
 
 def workspace_root(start: Path) -> Path | None:
-    """Return the folder of the workspace in which packages are searched; None outside a workspace.
+    """Return the folder of the workspace in which packages are searched, or None outside a workspace.
 
     This is the outermost ``src`` folder with packages above or next to the start; without one, the outermost folder
     above the start that is a package or a Git repository. The home directory and the root directory are not searched.

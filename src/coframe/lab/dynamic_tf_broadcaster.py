@@ -178,7 +178,7 @@ class DynamicFramePublisher(Node):
 
     @staticmethod
     def seconds_between(earlier: Time | None, later: Time) -> float | None:
-        """Return the seconds between two times; None if there is no earlier one."""
+        """Return the seconds between two times, or None if there is no earlier one."""
         return None if earlier is None else (later - earlier).nanoseconds * 1e-9
 
 

@@ -97,7 +97,7 @@ class Launcher:
         return list(self._processes)
 
     def failed(self) -> FailedNode | None:
-        """Return the first node that has stopped by itself; None if all are running."""
+        """Return the first node that has stopped by itself, or None if all are running."""
         return next(self.ended(), None)
 
     def ended(self) -> Iterator[FailedNode]:

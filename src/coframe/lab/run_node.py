@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run the node in the module given by the first argument; it stops when its launcher stops.
+"""Run the node in the module given by the first argument. It stops when its launcher stops.
 
 The launcher holds the other end of standard input, which is closed when the launcher exits, even if it is killed.
 """

@@ -109,7 +109,7 @@ class SimulatedLidar(Node):
         self.scan_pub.publish(scan)
 
     def lidar_pose(self) -> tuple[float, float, float]:
-        """Return the pose of the lidar in the hall as x, y and yaw; the origin if its transform is not available."""
+        """Return the pose of the lidar in the hall as x, y and yaw, or the origin if its transform is not available."""
         try:
             transform = self.tf_buffer.lookup_transform(self.fixed_frame, self.frame, Time()).transform
         except TransformException as e:

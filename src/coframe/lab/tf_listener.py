@@ -95,7 +95,7 @@ class TransformListenerNode(Node):
             to_frame: The target frame.
 
         Returns:
-            The point [x, y, z], expressed in `to_frame`; None if the transform is not available within 0.1 s.
+            The point [x, y, z], expressed in `to_frame`, or None if the transform is not available within 0.1 s.
         """
         pt = PointStamped()
         pt.header.frame_id = from_frame

@@ -39,7 +39,7 @@ class FieldError(CoframeError, ValueError):
     Attributes:
         field: The name of the field.
         problem: A description of the problem.
-        missing: The name of a type that does not exist; "" if the problem is another one.
+        missing: The name of a type that does not exist, or "" if the problem is another one.
     """
 
     def __init__(self, field: str, problem: str, missing: str = "") -> None:

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class RejectedValueError(CoframeError, ValueError):
-    """Bytes or values that the type does not allow; the message names the expected value."""
+    """Bytes or values that the type does not allow. The message names the expected value."""
 
 
 class Compiler(ABC):
@@ -77,7 +77,7 @@ class Compiler(ABC):
 
     @contextmanager
     def block(self, line: str) -> Iterator[None]:
-        """Add a line that opens a block; lines that are added in the context belong to the block."""
+        """Add a line that opens a block. Lines that are added in the context belong to the block."""
         self.emit(line)
         self.indent += 1
         yield
@@ -90,7 +90,7 @@ class Compiler(ABC):
         self.pending_paths.append(self.current_path())
 
     def take_run(self) -> tuple[Run, str, str] | None:
-        """End the current run and return its layouts, its expressions and its fields; None if the run is empty."""
+        """End the current run and return its layouts, its expressions and its fields, or None if the run is empty."""
         if not self.codes and not self.after_text:
             return None
         run = plan_run(self.codes, self.offset, self.order, after_text=self.after_text, is_ros1=self.is_ros1)
@@ -101,7 +101,7 @@ class Compiler(ABC):
         return run, expressions, subject
 
     def loop(self, line: str, body: Callable[[], None]) -> None:
-        """Compile a loop; its body must be valid for every offset that an iteration can start at."""
+        """Compile a loop. Its body must be valid for every offset that an iteration can start at."""
         self.flush()
         while True:
             mark, start = len(self.lines), self.offset

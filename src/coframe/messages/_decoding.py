@@ -28,7 +28,7 @@ from coframe.messages.registry import class_of
 
 
 def decoding(cls: Any, order: Order, *, is_ros1: bool = False) -> Plan:
-    """Compile ``run(data)`` for messages of the class in one byte order; its variable ``pos`` is the offset.
+    """Compile ``run(data)`` for messages of the class in one byte order. Its variable ``pos`` is the offset.
 
     It returns the message and its end.
     """

@@ -73,7 +73,7 @@ def attribute(name: str, type_: AbstractType, slot: Any) -> Any:
 
 
 def number_of(type_: AbstractType) -> NumberFormat | None:
-    """Return how the numbers of an array or sequence of numbers are stored; None for other types."""
+    """Return how the numbers of an array or sequence of numbers are stored, or None for other types."""
     if isinstance(type_, AbstractNestedType) and isinstance(type_.value_type, BasicType):
         return NUMBERS.get(type_.value_type.typename)
     return None

@@ -130,7 +130,7 @@ def _unquote(text: str) -> str:
 
 
 def _split_items(text: str) -> list[str]:
-    """Return the items of a list; a comma inside quotes does not separate items."""
+    """Return the items of a list. A comma inside quotes does not separate items."""
     items, item, quote = [], "", ""
     for character in text[1:-1]:
         if character == "," and not quote:

@@ -60,7 +60,7 @@ _RESERVED = {
 
 
 class Field(NamedTuple):
-    """A field; its default is None if the file has none."""
+    """A field. Its default is None if the file has none."""
 
     name: str
     type: AbstractType
@@ -68,7 +68,7 @@ class Field(NamedTuple):
 
 
 class Constant(NamedTuple):
-    """A constant; the value of an octet is bytes of length 1, as in Python messages."""
+    """A constant. The value of an octet is bytes of length 1, as in Python messages."""
 
     name: str
     type: AbstractNestableType
@@ -132,7 +132,7 @@ def check_message_name(name: str) -> None:
 
 
 def add_unique(names: set[str], name: str) -> None:
-    """Add the name of a field or constant; raise ValueError if the message has it already, or cannot have it."""
+    """Add the name of a field or constant, and raise ValueError if the message has it already, or cannot have it."""
     if name in names:
         raise ValueError(f"the name {name!r} is used twice")
     if name in _RESERVED:
@@ -171,7 +171,7 @@ def parse_structure(
 
 
 def add_member(structure: MessageStructure, member: Field | Constant) -> None:
-    """Add a field or constant to a message; raise ValueError if there are too many."""
+    """Add a field or constant to a message, and raise ValueError if there are too many."""
     if isinstance(member, Field):
         structure.fields.append(member)
         if len(structure.fields) > MAX_FIELDS:

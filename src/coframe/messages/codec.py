@@ -111,7 +111,7 @@ def _deserialize_in_python(data: bytes, cls: type[M], max_rest: int | None = Non
 
 
 def _deserialize_if_other_form(data: bytes, cls: type[M]) -> M | None:
-    """Return the message if the bytes are one of the definition that another distribution has; None otherwise."""
+    """Return the message if the bytes are one of the definition that another distribution has, or None otherwise."""
     from coframe.messages import other_forms  # noqa: PLC0415 - rarely needed
 
     if not other_forms.has_other_form(cls):
@@ -120,7 +120,7 @@ def _deserialize_if_other_form(data: bytes, cls: type[M]) -> M | None:
 
 
 def deserialize_other_form(data: bytes, cls: type[M]) -> M | None:
-    """Return a message of the definition that another distribution has, as one of `cls`; None if it is not one.
+    """Return a message of the definition that another distribution has, as one of `cls`, or None if it is not one.
 
     Args:
         data: The bytes.

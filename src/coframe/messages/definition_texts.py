@@ -36,7 +36,7 @@ _EVENT = "_Event"
 
 @functools.cache
 def definition_of(ros_type: str) -> str:
-    """Return the definition of a message type and of all types inside it, as ``ros2msg``; "" if it is unknown.
+    """Return the definition of a message type and of all types inside it, as ``ros2msg``, or "" if it is unknown.
 
     The text has rosbag2's format: of the ``.msg`` files, each but the first after a line of 80 ``=`` and a line
     such as ``MSG: std_msgs/Header``. Types that have no such file, because they belong to a service, an action or an

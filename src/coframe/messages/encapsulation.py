@@ -18,5 +18,5 @@ BYTE_ORDERS: dict[bytes, Order] = {b"\x00\x00": ">", b"\x00\x01": "<"}
 
 
 def byte_order(message: bytes | memoryview) -> Order | None:
-    """Return the byte order of a CDR message; None if it is not plain CDR or is shorter than its header."""
+    """Return the byte order of a CDR message, or None if it is not plain CDR or is shorter than its header."""
     return BYTE_ORDERS.get(bytes(message[:2])) if len(message) >= HEADER_SIZE else None

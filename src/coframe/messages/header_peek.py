@@ -85,7 +85,7 @@ _STAMP_OFFSETS = {
 
 
 def peek_header(message: bytes, encoding: str = "cdr") -> HeaderPeek | None:
-    """Return the header that a message begins with; None if it is damaged, cut short or not plain CDR.
+    """Return the header that a message begins with, or None if it is damaged, cut short or not plain CDR.
 
     Args:
         message: The message, or its first bytes.
@@ -113,7 +113,7 @@ def begins_with_header(ros_type: str) -> bool:
 
 
 def stamp_reader(ros_type: str, encoding: str = "cdr") -> StampReader | None:
-    """Return a reader for the stamps of a type's messages; None if coframe knows no stamp that they begin with.
+    """Return a reader for the stamps of a type's messages, or None if coframe knows no stamp that they begin with.
 
     Args:
         ros_type: The type, such as ``sensor_msgs/msg/Imu``.
@@ -124,12 +124,12 @@ def stamp_reader(ros_type: str, encoding: str = "cdr") -> StampReader | None:
 
 
 def known_first_stamp(ros_type: str) -> FirstStamp | None:
-    """Return how the messages of a type begin; None if that is not a known stamp."""
+    """Return how the messages of a type begin, or None if that is not a known stamp."""
     return _first_field(_known_types(ros_type), _known_types)
 
 
 def first_stamp(schema: ResolvedSchema) -> FirstStamp | None:
-    """Return how the messages of a definition in a recording begin; None if they do not begin with a stamp."""
+    """Return how the messages of a definition in a recording begin, or None if they do not begin with a stamp."""
     header = schema.structures.get(_HEADER)
     if header is not None and [field.name for field in header.fields] not in _HEADER_FIELDS:
         return None
@@ -151,7 +151,7 @@ class StampReader:
         self._length_offset = (HEADER_SIZE if self._is_cdr else 0) if first is FirstStamp.HEADERS else None
 
     def stamp(self, message: bytes) -> int | None:
-        """Return the stamp of one message in nanoseconds; None if it has none."""
+        """Return the stamp of one message in nanoseconds, or None if it has none."""
         order = byte_order(message) if self._is_cdr else "<"
         if order is None or len(message) < self._offset + 8:
             return None

@@ -39,7 +39,7 @@ _codecs: dict[type, _core.MessageCodec | None] = {}
 
 
 def native_codec(cls: Any) -> _core.MessageCodec | None:
-    """Return the native codec of a message class; None if it has fields that only Python code supports."""
+    """Return the native codec of a message class, or None if it has fields that only Python code supports."""
     if cls.__recorded__:
         return _recorded_codec(cls)
     if cls not in _codecs:

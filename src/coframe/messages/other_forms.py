@@ -31,7 +31,7 @@ def has_other_form(cls: Any) -> bool:
 
 @functools.cache
 def other_form(ros_type: str) -> type[Message] | None:
-    """Return a class for the definition that other distributions have of a type; None if all have the same one."""
+    """Return a class for the definition that other distributions have of a type, or None if all have the same one."""
     from coframe.messages._class_factory import class_name, new_message_class  # noqa: PLC0415 - rarely needed
     from coframe.messages._parser import parse  # noqa: PLC0415
     from coframe.messages.definition import AbstractNestedType, NamespacedType  # noqa: PLC0415

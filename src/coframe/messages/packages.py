@@ -32,7 +32,7 @@ __all__ = [
     "shipped_exports",
 ]
 
-_SHIPPED = Path(__file__).parent / "find_shipped"
+_SHIPPED = Path(__file__).parent / "shipped"
 _GENERATED = Path(__file__).parent / "generated"
 
 
@@ -41,7 +41,7 @@ class InterfacePackage:
 
     Attributes:
         name: The name of the package.
-        folder: The folder of the package; None for a package that coframe contains.
+        folder: The folder of the package, or None for a package that coframe contains.
     """
 
     def __init__(self, name: str, definitions: Mapping[str, Definition | Path], folder: Path | None = None) -> None:
@@ -89,7 +89,7 @@ class InterfacePackage:
         return parse(definition.text, self.name, NUMBER_OF_PARTS[kind], file=definition.file)
 
     def create(self, kind: str, name: str) -> None:
-        """Create and register the classes of a definition; do nothing if the package does not have it.
+        """Create and register the classes of a definition. Do nothing if the package does not have it.
 
         Args:
             kind: ``msg``, ``srv`` or ``action``.
@@ -119,7 +119,7 @@ class InterfacePackage:
 
 
 def _other_packages_hint(ros_type: str) -> str:
-    """Return a hint about packages that contain a type with the name of a missing one; "" if there are none."""
+    """Return a hint about packages that contain a type with the name of a missing one, or "" if there are none."""
     _, _, name = ros_type.rpartition("/")
     found = [package for package in map(find_shipped, shipped_names()) if package and name in package.names("msg")]
     names = " or ".join(f"{package.name}/{name}" for package in found[:3])
@@ -135,7 +135,7 @@ _found: dict[str, InterfacePackage | None] = {}
 
 
 def find_package(name: str) -> InterfacePackage | None:
-    """Return the user's package with a name, or the one that coframe contains; None if there is none."""
+    """Return the user's package with a name, or the one that coframe contains, or None if there is none."""
     if name not in _found:
         folder = sources.find_folder(name)
         _found[name] = find_shipped(name) if folder is None else load_package(name, folder)
@@ -172,7 +172,7 @@ def find_shipped(name: str) -> InterfacePackage | None:
 
 
 def shipped_other_form(ros_type: str) -> str | None:
-    """Return the definition that other distributions have of a type of coframe; None if all have the same one."""
+    """Return the definition that other distributions have of a type of coframe, or None if all have the same one."""
     package, _, name = ros_type.partition("/")
     path = _SHIPPED / f"{package}.txt"
     return _archive.other_forms(path.read_text("utf-8")).get(name) if path.is_file() else None

@@ -54,7 +54,7 @@ def class_of(type_: NamespacedType) -> Any:
 
 
 def _load(package: str, kind: str, name: str) -> bool:
-    """Register the classes with a name if they exist; return whether the package has types of this kind."""
+    """Register the classes with a name if they exist, and return whether the package has types of this kind."""
     module = f"{__package__}.generated.{package}.{kind}"
     try:
         importlib.import_module(module)

@@ -43,7 +43,7 @@ _ALIASES = {name.replace("/", "/msg/"): TF_MESSAGE for name in TF_MESSAGES_OF_RO
 
 
 def known_class(ros_type: str) -> Any:
-    """Return coframe's class for the messages of a type in a recording; None if there is none."""
+    """Return coframe's class for the messages of a type in a recording, or None if there is none."""
     for name in _full_names(_ALIASES.get(ros_type, ros_type)):
         try:
             cls = find(name)
@@ -185,7 +185,7 @@ class ResolvedSchema:
 
 
 def _known_name(type_: NamespacedType, home: str) -> str | None:
-    """Return the name of a message that only coframe has; None if it has not."""
+    """Return the name of a message that only coframe has, or None if it has not."""
     package, kind = type_.namespaces
     packages = [package] if package else [home, *(["std_msgs"] if type_.name == "Header" else [])]
     names = (f"{owner}/{kind}/{type_.name}" for owner in packages)
@@ -224,7 +224,7 @@ def _add_class(type_: AbstractType, made: dict[str, Any]) -> AbstractType:
 
 
 def _value_type(type_: AbstractType) -> NamespacedType | None:
-    """Return the type of the messages in a field; None if it contains no messages."""
+    """Return the type of the messages in a field, or None if it contains no messages."""
     value_type = type_.value_type if isinstance(type_, AbstractNestedType) else type_
     return value_type if isinstance(value_type, NamespacedType) else None
 

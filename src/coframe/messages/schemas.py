@@ -58,7 +58,7 @@ class Schema:
         self.name = found
 
     def find(self, type_: NamespacedType, home: str) -> str | None:
-        """Return the name of a message in the definition; None if it has no such message.
+        """Return the name of a message in the definition, or None if it has no such message.
 
         Args:
             type_: The message as a field names it; its package is empty if the field does not name one.
@@ -75,7 +75,7 @@ class Schema:
         return names[0] if len(names) == 1 else None
 
     def find_line(self, owner: str, field: str) -> int | None:
-        """Return the number of the line with a field of a message; None if it is not found."""
+        """Return the number of the line with a field of a message, or None if it is not found."""
         title = re.compile(rf"(?:\s*\w+:.*|.*struct\s+){re.escape(owner.rpartition('/')[2])}_?\b")
         line = re.compile(rf"[^#]*[\s,]{re.escape(field)}_?\s*(?:[;,\[#].*)?")
         lines = self._text.split("\n")
@@ -138,7 +138,7 @@ def parse_schema(text: bytes, name: str, format_: str) -> Schema:
 
 
 def _split(text: str) -> list[_Block]:
-    """Return the files in a text; the first has no title."""
+    """Return the files in a text. The first has no title."""
     blocks = [_Block("", "", 1, [])]
     for number, raw in enumerate(text.split("\n"), 1):
         line = raw.rstrip("\r")
@@ -204,7 +204,7 @@ def _parse_block(lines: _Lines, name: str, rules: Rules) -> dict[str, MessageStr
 
 
 def _split_name(name: str) -> tuple[str, str, str]:
-    """Return package, kind and last part of a name; the package can be missing."""
+    """Return package, kind and last part of a name. The package can be missing."""
     namespace, _, own = name.rpartition("/")
     package, _, kind = namespace.partition("/")
     return package, kind or "msg", own

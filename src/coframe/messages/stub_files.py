@@ -17,7 +17,7 @@ __all__ = ["write_stubs"]
 
 
 def write_stubs(package: InterfacePackage, folder: Path) -> list[InterfaceError]:
-    """Write ``my_msgs/msg/__init__.pyi`` and the like; return the errors of omitted definitions.
+    """Write ``my_msgs/msg/__init__.pyi`` and the like, and return the errors of omitted definitions.
 
     Args:
         package: The package whose definitions are read.

@@ -37,7 +37,7 @@ class JointStatePublisher(Node):
     """Node that publishes the states of the joints of a robot periodically.
 
     Args:
-        robot: Robot to use until a description is received on `/robot_description`; None for no robot.
+        robot: Robot to use until a description is received on `/robot_description`, or None for no robot.
         options: Keyword arguments of Node.
 
     Attributes:

@@ -62,7 +62,7 @@ def program(name: str, args: list[str] | None, run: Callable[[list[str], list[st
 
     Args:
         name: Name of the program.
-        args: Command line without the name; None for the command line of the process.
+        args: Command line without the name, or None for the command line of the process.
         run: Function that is called with the command line, and with the arguments that are not ROS arguments.
     """
     words = [name, *(sys.argv[1:] if args is None else args)]

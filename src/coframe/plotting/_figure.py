@@ -96,7 +96,7 @@ class Figure:
         return np.asarray((series.stamps - self.origin) / (SECOND if self.has_time else 1))
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the figure; its suffix selects the format: ``.svg``, ``.png`` or ``.html``.
+        """Write the figure. Its suffix selects the format: ``.svg``, ``.png`` or ``.html``.
 
         An HTML file contains everything that it needs: it works without a network, zooms, and follows the light or dark
         theme of the browser.

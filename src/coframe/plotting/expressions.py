@@ -83,8 +83,8 @@ class TimingExpression:
     Attributes:
         text: The expression as written.
         quantity: ``rate`` or ``delay``.
-        topic: The name of the topic; None for an edge.
-        edge: The parent and the child; None for a topic.
+        topic: The name of the topic, or None for an edge.
+        edge: The parent and the child, or None for a topic.
     """
 
     text: str

@@ -59,7 +59,7 @@ class MergedRecordings:
     def in_order(
         self, topics: Iterable[str] | None = None, start: int | None = None, stop: int | None = None
     ) -> Iterator[tuple[Channel, int, bytes]]:
-        """Yield the messages of topics in receive order; see `Recording.in_order`."""
+        """Yield the messages of topics in receive order. See `Recording.in_order`."""
         chosen = None if topics is None else set(topics)
         streams = (
             each.in_order(None if chosen is None else chosen & set(each.topics), start, stop)

@@ -86,7 +86,7 @@ class MessageQueue:
             limit: The approximate number of bytes to return.
 
         Returns:
-            The messages; none after the timeout or if the queue is closed and empty.
+            The messages, or none after the timeout or if the queue is closed and empty.
         """
         deadline = time.monotonic() + timeout
         with self._changed:
@@ -115,7 +115,7 @@ class MessageQueue:
             self._changed.notify_all()
 
     def _queue_with_oldest(self) -> deque[ReceivedMessage]:
-        """Return the queue whose first message is older; an empty queue if both are empty."""
+        """Return the queue whose first message is older, or an empty queue if both are empty."""
         if not self._latched or not self._messages:
             return self._latched or self._messages
         return self._latched if self._latched[0].received <= self._messages[0].received else self._messages

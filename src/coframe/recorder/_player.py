@@ -130,7 +130,7 @@ class Player:
         return True
 
     def wait_for_start(self, timeout: DurationLike | None = None) -> bool:
-        """Wait until the first message is published; return False after the timeout."""
+        """Wait until the first message is published, or False after the timeout."""
         return self._started.wait(duration_seconds(timeout))
 
     def pause(self) -> None:

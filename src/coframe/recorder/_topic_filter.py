@@ -28,7 +28,7 @@ class TopicFilter:
         regex: A regular expression. Topics whose full name matches it are selected.
         exclude: A regular expression. Topics whose full name matches it are not selected.
         types: Types; their topics are selected.
-        services: The names of services whose requests and responses are selected; True for all services.
+        services: The names of services whose requests and responses are selected, or True for all services.
         hidden: Whether hidden topics are selected if no condition is given.
         exclude_topics: The names of topics that are not selected.
         exclude_types: Types whose topics are not selected.

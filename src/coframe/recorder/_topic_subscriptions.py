@@ -29,7 +29,7 @@ MAX_PUBLISHERS = 100_000  # limit of the publishers whose QoS is stored, and of 
 
 
 class _OfferedTopic(NamedTuple):
-    """A topic with the QoS that a group of its publishers offers; there is one subscription for each."""
+    """A topic with the QoS that a group of its publishers offers. There is one subscription for each."""
 
     topic: str
     type: str

@@ -261,7 +261,7 @@ def record(
         regex: A regular expression. Also record topics whose full name matches it.
         exclude: A regular expression. Topics whose full name matches it are not recorded.
         types: Types whose topics are recorded as well: ["sensor_msgs/msg/LaserScan"].
-        services: Services whose requests and responses are recorded as well; True for all. Their client or server
+        services: Services whose requests and responses are recorded as well, or True for all. Their client or server
             publishes them if its introspection is enabled.
         hidden: Whether hidden topics are recorded if no topics are selected.
         exclude_topics: Topics that are not recorded.

@@ -67,7 +67,7 @@ class Element:
         return (child for child in self.children if child.tag == tag)
 
     def one(self, tag: str) -> Element | None:
-        """Return the first child element with a tag; None if there is none. Others cause a warning."""
+        """Return the first child element with a tag, or None if there is none. Others cause a warning."""
         found = self.all(tag)
         first = next(found, None)
         if (second := next(found, None)) is not None:
@@ -120,7 +120,7 @@ class Element:
         return float(word)
 
     def parse_or_warn(self, parse: Callable[[Element], T], ignored: str) -> T | None:
-        """Return the result of `parse` for this element; None if it has a fault, which becomes a warning.
+        """Return the result of `parse` for this element, or None if it has a fault, which becomes a warning.
 
         Args:
             parse: A function that raises RobotDescriptionError.
@@ -211,7 +211,7 @@ def read(data: str | bytes) -> Document:
         reason, line = expat.errors.messages[error.code], error.lineno
     repair = repair_xml(text)
     if repair is not None:
-        warnings.append(f"line {line}: not well-formed XML: {reason}. The document was repair_xml")
+        warnings.append(f"line {line}: not well-formed XML: {reason}. The document was repaired")
         with contextlib.suppress(expat.ExpatError):
             return Document(_parse(repair, warnings), repair, warnings)
     beginning = data[:BEGINNING].encode() if isinstance(data, str) else data[:BEGINNING]

@@ -40,7 +40,7 @@ class KinematicTree:
                 of every child link relative to its parent link is returned, by joint.
 
         Returns:
-            The transforms; None if a position is not finite, has the wrong size, or belongs to a fixed or unknown
+            The transforms, or None if a position is not finite, has the wrong size, or belongs to a fixed or unknown
             joint.
         """
         return self._tree.transforms(positions if type(positions) is dict else dict(positions), in_root)
@@ -58,7 +58,7 @@ class KinematicTree:
             threads: The number of threads.
 
         Returns:
-            The first joint whose position is not finite or has a zero quaternion; None if there is none.
+            The first joint whose position is not finite or has a zero quaternion, or None if there is none.
         """
         return self._tree.poses_into(list(positions.items()), count, in_root, out, threads)
 

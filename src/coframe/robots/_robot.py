@@ -46,7 +46,7 @@ class Robot:
         materials: The named materials by name.
         text: The description as URDF, which is well-formed XML even if the file is not.
         warnings: A message for each fault of the description that does not prevent its use, with its line.
-        path: The file of the description; None if it was not loaded from a file.
+        path: The file of the description, or None if it was not loaded from a file.
     """
 
     name: str
@@ -224,7 +224,7 @@ class Robot:
         return found
 
     def clip(self, positions: Positions) -> dict[str, Array]:
-        """Return positions by joint that are moved into the limits; see :meth:`limit_violations`."""
+        """Return positions by joint that are moved into the limits. See :meth:`limit_violations`."""
         known, _ = self._given_positions(positions)
         return {name: value - self.limit_violations({name: value}).get(name, 0.0) for name, value in known.items()}
 
@@ -235,7 +235,7 @@ class Robot:
             joint_states: JointState messages, with their stamps and in any order; or positions with ``stamps``, see
                 :meth:`frames`. Messages may contain only some of the joints. Joints without any position are static,
                 at their default.
-            stamps: Times of the positions, shape (N,), int64 nanoseconds or datetime64; None for messages.
+            stamps: Times of the positions, shape (N,), int64 nanoseconds or datetime64, or None for messages.
 
         Returns:
             A buffer that keeps everything; ``lookup`` interpolates each joint on its own.

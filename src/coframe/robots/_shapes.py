@@ -50,7 +50,7 @@ class Materials:
                     self.defined.setdefault(material.name, material)
 
     def material_of_visual(self, visual: Element) -> Material | None:
-        """Return the material of a visual; None if it has none."""
+        """Return the material of a visual, or None if it has none."""
         element = visual.one("material")
         if element is None:
             return None
@@ -101,7 +101,7 @@ def parse_link(name: str, element: Element, materials: Materials) -> Link:
 
 
 def origin(element: Element, target: str, source: str | None = None) -> Transform:
-    """Return the pose in the <origin> of an element, relative to `target`; the identity if there is no <origin>.
+    """Return the pose in the <origin> of an element, relative to `target`, or the identity if there is no <origin>.
 
     Raises:
         RobotDescriptionError: A value is not valid.

@@ -35,7 +35,7 @@ def repair_xml(text: str) -> str | None:
     control characters, and anything before or after the <robot>, such as a second declaration.
 
     Returns:
-        The repaired document; None if the faults are others, such as tags without an end.
+        The repaired document, or None if the faults are others, such as tags without an end.
     """
     kept: list[str] = []
     depth = 0

@@ -124,7 +124,7 @@ def _expand(
 
 
 def run_xacro(command: list[str], *, capture: bool = False) -> subprocess.CompletedProcess[str]:
-    """Run the program xacro with limits on time, memory and output; on Windows, only time is limited.
+    """Run the program xacro with limits on time, memory and output. On Windows, only time is limited.
 
     Args:
         command: The path of the program, and its arguments.

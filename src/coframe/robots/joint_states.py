@@ -27,9 +27,9 @@ class FreeJoint:
         upper: The upper limit; pi for a continuous joint.
         zero: The default position.
         continuous: Whether the joint is continuous.
-        position: The position; None if it is unknown.
-        velocity: The velocity; None if it is unknown.
-        effort: The effort; None if it is unknown.
+        position: The position, or None if it is unknown.
+        velocity: The velocity, or None if it is unknown.
+        effort: The effort, or None if it is unknown.
         increasing: Whether :meth:`JointStates.step` increases the position.
     """
 
@@ -170,7 +170,7 @@ class JointStates:
         )
 
     def _last_leader(self, name: str, followers: Mapping[str, _Follower]) -> _Follower:
-        """Return the free joint that a joint follows, directly or indirectly; the joint itself if it is free."""
+        """Return the free joint that a joint follows, directly or indirectly, or the joint itself if it is free."""
         found = _Follower(name)
         chain = [name]
         while found.leader in followers:

@@ -88,8 +88,8 @@ class Material:
 
     Attributes:
         name: The name, which can be empty.
-        color: Red, green, blue and alpha from 0 to 1; None if there is no color.
-        texture: The file name in the description; None if there is no texture.
+        color: Red, green, blue and alpha from 0 to 1, or None if there is no color.
+        texture: The file name in the description, or None if there is no texture.
     """
 
     name: str
@@ -181,8 +181,8 @@ class Joint:
         origin: The pose of the child link relative to the parent link at position 0.
         axis: The unit vector of the rotation or translation axis, or the normal of a planar joint, expressed in the
             child link; zero if the joint cannot move.
-        limits: The limits, which revolute and prismatic joints always have; None if there are none.
-        mimic: The rule by which it follows another joint; None if it does not.
+        limits: The limits, which revolute and prismatic joints always have, or None if there are none.
+        mimic: The rule by which it follows another joint, or None if it does not.
     """
 
     name: str

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Compute transforms from joint states by the rules of robot_state_publisher; this module does not publish them."""
+"""Compute transforms from joint states by the rules of robot_state_publisher. This module does not publish them."""
 
 from __future__ import annotations
 

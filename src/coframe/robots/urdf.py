@@ -215,7 +215,7 @@ def _limits(joint: Element, name: str, kind: JointType) -> JointLimits | None:
 
 
 def _limit_value(element: Element | None, attribute: str, *, required: bool = False) -> float | None:
-    """Return a limit; None if it is not given, or is not valid and not required."""
+    """Return a limit, or None if it is not given, or is not valid and not required."""
     if element is None or attribute not in element.attributes:
         return None
     if required:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Expand one xacro file in a separate process with limited memory; see :mod:`coframe.robots.files`.
+"""Expand one xacro file in a separate process with limited memory. See :mod:`coframe.robots.files`.
 
 With arguments, it runs them as a command with the same limits. Otherwise the request and the answer are JSON on
 standard input and output. The file is run as a script, and imports the native core only for ``$(find PACKAGE)``,

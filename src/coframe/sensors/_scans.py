@@ -34,7 +34,7 @@ class ScanPoints:
         points: Positions in ``frame`` in meters, shape (N, 3), float64.
         beams: Index of the beam of each point, shape (N,), int32.
         times: Time of each point in nanoseconds, shape (N,), int64.
-        intensities: Intensities in the scan, shape (N,), float32; None if it has none.
+        intensities: Intensities in the scan, shape (N,), float32, or None if it has none.
         frame: The frame of the points.
         stamp: The stamp of the points in nanoseconds.
     """
@@ -85,7 +85,7 @@ def project_scan(
     at: StampLike | None = None,
     on_error: Literal["raise", "nan"] = "raise",
 ) -> ScanPoints:
-    """Convert a laser scan to points; with a buffer, transform each beam to ``target`` at its own time.
+    """Convert a laser scan to points. With a buffer, transform each beam to ``target`` at its own time.
 
     As in `laser_geometry`, beams without a valid range are skipped: NaN, infinite, below `range_min`, or not below
     `range_max`.

@@ -159,13 +159,13 @@ def move(
 
 
 def core_buffer(thing: Any) -> _core.Buffer | None:
-    """Return the core buffer of a coframe.Buffer or tf2_ros.Buffer; None for other objects."""
+    """Return the core buffer of a coframe.Buffer or tf2_ros.Buffer, or None for other objects."""
     thing = getattr(thing, "_Coframe__buffer", thing)
     return thing if isinstance(thing, _core.Buffer) else None
 
 
 def to_transform(transform: Any) -> Transform:
-    """Return a single transform from a Transform or a message; the quaternion of a message is normalized.
+    """Return a single transform from a Transform or a message. The quaternion of a message is normalized.
 
     Raises:
         TypeError: The argument has another type.
@@ -198,7 +198,7 @@ def check_source(transform: Transform, frame: str | None) -> None:
 
 
 def frame_of(points: Any) -> str | None:
-    """Return the frame in the header of a message; None if it is empty or there is no header."""
+    """Return the frame in the header of a message, or None if it is empty or there is no header."""
     return points.header.frame_id or None if layout.is_message(points) else None
 
 

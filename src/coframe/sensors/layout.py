@@ -192,7 +192,7 @@ def _array_destination(points: NDArray[Any], out: Any, *, in_place: bool) -> NDA
 
 
 def _memory(data: Any) -> memoryview:
-    """Return the bytes of a message; a copy if they are not contiguous."""
+    """Return the bytes of a message, or a copy if they are not contiguous."""
     try:
         return memoryview(data).cast("B")
     except TypeError:
@@ -206,7 +206,7 @@ def _copied(data: Any) -> Any:
 
 
 def _copy_into(memory: Any, data: Any) -> bool:
-    """Copy the data into the memory of a reused message; return False if the memory is not suitable."""
+    """Copy the data into the memory of a reused message, or False if the memory is not suitable."""
     if memory is data or _memory(memory).readonly or len(_memory(memory)) != len(_memory(data)):
         return False
     _memory(memory)[:] = _memory(data)

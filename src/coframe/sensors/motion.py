@@ -62,7 +62,7 @@ def _joint_parent(buffer: _core.Buffer, target: str, source: str) -> str:
 
 
 def _moved_in(buffer: _core.Buffer, robot: str, stamps: NDArray[np.int64]) -> str | None:
-    """Return the frame above a frame of a robot in which the robot moves; None if it does not move.
+    """Return the frame above a frame of a robot in which the robot moves, or None if it does not move.
 
     Of several edges that move, the upper ones are corrections of a localization: the frame is the one with the usual
     name, or else the parent of the edge that moves most.

@@ -80,7 +80,7 @@ class PointTimes(NamedTuple):
 def times_in(
     points: NDArray[Any], stamp: int, field: str | None = None, unit: str | None = None, *, period: int = 0
 ) -> PointTimes | None:
-    """Return the times of the points; None if they have no times, or all have the same.
+    """Return the times of the points, or None if they have no times, or all have the same.
 
     Values of more than three years are absolute; others are relative to the stamp.
 
@@ -89,7 +89,7 @@ def times_in(
         stamp: Stamp of the message in nanoseconds.
         field: Name of the time field; None uses the first of `TIME_FIELDS` that exists.
         unit: Unit of the values, one of `UNITS`; None finds it out.
-        period: The usual interval between the messages in nanoseconds; 0 if it is unknown.
+        period: The usual interval between the messages in nanoseconds, or 0 if it is unknown.
 
     Raises:
         UnknownTimesError: The field has times in no known unit.
@@ -132,7 +132,7 @@ def likely_times(names: Sequence[str]) -> list[str]:
 
 
 def implausible(times: PointTimes, period: int) -> str:
-    """Return why a sweep does not fit the interval between messages; "" if it does, or the interval is unknown."""
+    """Return why a sweep does not fit the interval between messages, or "" if it does, or the interval is unknown."""
     if not period or _is_plausible(times, period):
         return ""
     return (
@@ -159,7 +159,7 @@ def _is_plausible(times: PointTimes, period: int) -> bool:
 
 
 def _read(values: NDArray[Any], stamp: int, field: str, unit: str) -> PointTimes | None:
-    """Convert the times of a field from one unit; None if they are not near the stamp."""
+    """Convert the times of a field from one unit, or None if they are not near the stamp."""
     known = np.isfinite(values)
     largest = float(np.abs(values[known].astype(np.float64)).max()) * UNITS[unit]
     if not largest < _MAX_TIME:

@@ -54,7 +54,7 @@ def warn_of_rounding(distance: float, position: tuple[NDArray[Any], ...], advice
 
 
 def as_float64(points: Any) -> Any:
-    """Return a copy of a message or an array whose x, y and z are float64; other fields keep their types.
+    """Return a copy of a message or an array whose x, y and z are float64. Other fields keep their types.
 
     Raises:
         ValueError: The message has a field with an unknown type, or its sizes do not match its data.

@@ -29,7 +29,7 @@ class Installation:
         python: The version and the implementation of Python.
         platform: The operating system and the processor.
         packages: The versions of coframe and of the packages that it requires.
-        extras: For each extra, the versions of its packages; None for those that are not installed.
+        extras: For each extra, the versions of its packages, or None for those that are not installed.
         ros: The name of the sourced ROS 2, "" if its variable is not set, None if no ROS 2 is sourced.
         foreign: The folders of ROS packages that Python does not import from coframe.
         container: Whether this process runs in a container.

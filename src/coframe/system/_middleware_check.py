@@ -52,7 +52,7 @@ class StepRunner:
         self.problems: list[FailedStep] = []
 
     def __call__(self, action: Callable[[], ValueT]) -> ValueT | None:
-        """Return the result of an action; None if it failed."""
+        """Return the result of an action, or None if it failed."""
         try:
             return action()
         except WireError as error:

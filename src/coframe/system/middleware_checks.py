@@ -22,7 +22,7 @@ MIDDLEWARE_CHECKS: Final = (_dds_check.CHECK, _zenoh_check.CHECK)
 
 
 def check_of(selected: Selection | None) -> MiddlewareCheck:
-    """Return the check of the selected middleware; the DDS check if the selection is invalid.
+    """Return the check of the selected middleware, or the DDS check if the selection is invalid.
 
     A middleware without a check of its own describes itself, and joins the graph.
     """

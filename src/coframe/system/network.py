@@ -40,7 +40,7 @@ class Interface:
         name: The name of the interface, such as ``eth0``.
         address: The IP address of the interface.
         used: Whether the participant uses it.
-        multicast: Whether a datagram that was sent to a multicast group on it was received on it; None if not tested.
+        multicast: Whether the interface receives multicast datagrams that it sends; None if not tested.
         problem: Why the test failed; empty if it did not.
     """
 
@@ -60,7 +60,7 @@ class Probe:
         interfaces: The network interfaces.
         unicast_ports: The ports of this participant for discovery and data.
         multicast_ports: The ports of the domain for discovery and data.
-        receive_buffer: The size of the receive buffer of its sockets, in bytes; None if it is unknown.
+        receive_buffer: The size of the receive buffer of its sockets, in bytes, or None if it is unknown.
         exchanged: Whether a message that was sent through the library was received through it.
     """
 
@@ -182,8 +182,8 @@ class SocketLimits:
     Attributes:
         default_buffer: The size of the receive buffer of a new UDP socket, in bytes.
         largest_buffer: The maximum size that a process may set, in bytes.
-        ephemeral_ports: The first and the last port that the system gives to other sockets; None if not known.
-        shared_memory: The free memory in /dev/shm in bytes, which nodes on Fast DDS use; None if there is none.
+        ephemeral_ports: The first and the last port that the system gives to other sockets, or None if not known.
+        shared_memory: The free memory in /dev/shm in bytes, which nodes on Fast DDS use, or None if there is none.
     """
 
     default_buffer: int

@@ -47,15 +47,15 @@ class SystemReport:
         installation: The software.
         variables: The environment variables that are set.
         library: The DDS library.
-        domain: The domain ID; None if ROS_DOMAIN_ID is invalid.
-        discovery: The discovery range; None if a variable is invalid.
+        domain: The domain ID, or None if ROS_DOMAIN_ID is invalid.
+        discovery: The discovery range, or None if a variable is invalid.
         participants: The numbers of used and of all participant indexes of the domain on this machine.
         probe: The behavior of a DDS participant on the network; None if it could not be created or Zenoh is selected.
         limits: The limits of the system.
-        nodes: The names of the other nodes that were found; None if the graph could not be joined.
+        nodes: The names of the other nodes that were found, or None if the graph could not be joined.
         listened: The duration of the search for nodes, in seconds.
-        wire: The selected middleware and why it was selected; None if COFRAME_WIRE is invalid.
-        zenoh: The connections of a Zenoh session; None if it could not be opened or DDS is selected.
+        wire: The selected middleware and why it was selected, or None if COFRAME_WIRE is invalid.
+        zenoh: The connections of a Zenoh session, or None if it could not be opened or DDS is selected.
         middleware: Lines about the selected middleware if it is another one.
         problems: The failed steps.
     """
@@ -117,7 +117,7 @@ def _library_report(environment: Mapping[str, str]) -> LibraryReport:
 
 
 def _other_nodes(domain: int, wire: str, listen: float) -> list[str]:
-    """Return the nodes that are found within this time; return early once no more appear."""
+    """Return the nodes that are found within this time, and return early once no more appear."""
     participant = Participant.get(domain, wire)
     try:
         end = time.monotonic() + listen

@@ -48,7 +48,7 @@ _STATIC_READER_QOS = QoS(depth=1000, transient_local=True)
 
 
 class _EdgeRow(NamedTuple):
-    """The statistics of an edge; see `_core.Relay.edges`."""
+    """The statistics of an edge. See `_core.Relay.edges`."""
 
     parent: str
     child: str

@@ -26,7 +26,7 @@ class RelayedEdge(NamedTuple):
         target: The topic that the edge is written to.
         forwarded: The number of transforms that were forwarded.
         skipped: The number of transforms that were skipped because of the rate or the maximum error.
-        conflicting_robot: Another robot that publishes the same child frame and is ignored; "" if there is none.
+        conflicting_robot: Another robot that publishes the same child frame and is ignored, or "" if there is none.
         conflicts: The number of transforms of other robots that were ignored.
         newest: The newest stamp, in nanoseconds.
         age: The time since the last transform arrived, in seconds.

@@ -69,7 +69,7 @@ def associate(
 def _nearest_pairs(
     stamps: NDArray[np.int64], others: NDArray[np.int64], limit: int
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the indices of the pairs; if two stamps are equally near, the earlier one is used."""
+    """Return the indices of the pairs. If two stamps are equally near, the earlier one is used."""
     order = np.argsort(others, kind="stable")
     ordered = others[order]
     upper = np.minimum(np.searchsorted(ordered, stamps, side="right"), len(ordered) - 1)

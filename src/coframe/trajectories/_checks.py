@@ -49,7 +49,7 @@ def findings(
     """Yield one sentence for each suspicious property.
 
     Args:
-        stamps: (N,) nanoseconds; None if the file has no times.
+        stamps: (N,) nanoseconds, or None if the file has no times.
         positions: (N, 3) meters.
         xyzw: (N, 4) quaternions as they were read.
     """
@@ -85,7 +85,7 @@ def findings(
 
 
 def _resultant(positions: NDArray[np.float64], xyzw: NDArray[np.float64]) -> float | None:
-    """Return how equal the directions of motion are, seen from the moving frame: 0 to 1; None if it hardly moves."""
+    """Return how equal the directions of motion are, seen from the moving frame: 0 to 1, or None if it hardly moves."""
     if len(positions) <= _MIN_MOVES:
         return None
     steps = np.diff(positions, axis=0)

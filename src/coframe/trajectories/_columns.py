@@ -31,8 +31,8 @@ class Columns(NamedTuple):
     Attributes:
         stamp: Index of the time.
         pose: Indices of x, y, z, qx, qy, qz and qw.
-        unit: The unit of the times in nanoseconds; None if the header does not name it.
-        nanoseconds: Index of the nanoseconds, if the time is divided into seconds and nanoseconds; -1 otherwise.
+        unit: The unit of the times in nanoseconds, or None if the header does not name it.
+        nanoseconds: Index of the nanoseconds, if the time is divided into seconds and nanoseconds, or -1 otherwise.
         scale: The unit of the positions in meters.
     """
 
@@ -63,7 +63,7 @@ def is_separated_by_spaces(line: str) -> bool:
 
 
 def header_columns(line: str) -> Columns | None:
-    """Return the columns that a header line names; None if it does not name each value of a pose exactly once.
+    """Return the columns that a header line names, or None if it does not name each value of a pose exactly once.
 
     Raises:
         ValueError: It names an unknown unit of the positions.
@@ -111,13 +111,13 @@ def _columns(line: str, found: dict[str, int], units: dict[str, str]) -> Columns
 
 
 def _unit_in(name: str) -> str:
-    """Return the unit in the name of a time, such as ``stamp_ns``; "" if it has none."""
+    """Return the unit in the name of a time, such as ``stamp_ns``, or "" if it has none."""
     stamp = _STAMP.fullmatch(name)
     return (stamp[1] or "") if stamp else ""
 
 
 def _column_meaning(name: str) -> str:
-    """Return which value has this name; "" for another one."""
+    """Return which value has this name, or "" for another one."""
     for meaning, pattern in (("nanoseconds", _NANOSECONDS), ("seconds", _WHOLE_SECONDS), ("stamp", _STAMP)):
         if pattern.fullmatch(name):
             return meaning

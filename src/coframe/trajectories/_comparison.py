@@ -114,7 +114,7 @@ class Comparison:
     Attributes:
         reference: The paired poses of the reference, (N,).
         estimate: The paired poses of the estimate after the alignment, (N,).
-        alignment: The alignment that was applied to the estimate; None without one.
+        alignment: The alignment that was applied to the estimate, or None without one.
         ape: The absolute pose errors, (N,).
         rpe: The relative pose errors, one for each pair of poses that are ``delta`` apart.
         delta: The distance between the poses of a relative error.

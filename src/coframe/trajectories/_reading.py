@@ -151,7 +151,7 @@ def _read_text(file: Readable, lines: Iterable[str], kind: str | None) -> _Poses
 
 
 class _Rows:
-    """The rows of a text file; a header line or the first row determines the columns."""
+    """The rows of a text file. A header line or the first row determines the columns."""
 
     def __init__(self, file: Readable, kind: str | None) -> None:
         self._file = file
@@ -327,7 +327,7 @@ def _orthogonality_errors(rotations: NDArray[np.float64]) -> NDArray[np.float64]
 
 
 def _other_order(rows: NDArray[np.float64]) -> str:
-    """Return a hint if the numbers are rotation matrices in another order; "" otherwise."""
+    """Return a hint if the numbers are rotation matrices in another order, or "" otherwise."""
     flat = rows.reshape(-1, 12)
     orders = {
         "with the nine numbers of the rotation first, and then x, y, z": flat[:, :9].reshape(-1, 3, 3),
@@ -340,7 +340,7 @@ def _other_order(rows: NDArray[np.float64]) -> str:
 
 
 def _nanoseconds(text: str, unit: int) -> int:
-    """Return a time in nanoseconds; a float would round it."""
+    """Return a time in nanoseconds. A float would round it."""
     match = _SECONDS.fullmatch(text)
     if match and unit == 1 and (match[3] or "").strip("0"):
         raise _UnitError(f"the time {text} has a fraction, so it cannot be in nanoseconds")

@@ -30,7 +30,7 @@ def single_pose(
     """Return the values of a single pose of floats without NumPy, which would take ten times as long for seven numbers.
 
     Returns:
-        x, y, z, qx, qy, qz, qw; None for batches, other types of numbers and invalid values.
+        x, y, z, qx, qy, qz, qw, or None for batches, other types of numbers and invalid values.
     """
     t, q = _few_numbers(translation, 3), _few_numbers(quaternion, 4)
     if t is None or q is None or not all(type(number) is float for number in (*t, *q)):
@@ -43,7 +43,7 @@ def single_pose(
 
 
 def _few_numbers(values: Any, count: int) -> Sequence[Any] | None:
-    """Return the numbers of an array of shape (count,), a tuple or a list; None for other values."""
+    """Return the numbers of an array of shape (count,), a tuple or a list, or None for other values."""
     if isinstance(values, np.ndarray):
         return values.tolist() if values.shape == (count,) else None
     return values if isinstance(values, tuple | list) and len(values) == count else None

@@ -42,9 +42,9 @@ class TransformConstructors(TransformAlgebra):
         Args:
             translation: Position in meters, shape (..., 3).
             rpy: Roll, pitch, yaw in radians, shape (..., 3); alternatively, pass the angles by name.
-            roll: Rotation about x in radians, shape (...); 0 if not given.
-            pitch: Rotation about y in radians, shape (...); 0 if not given.
-            yaw: Rotation about z in radians, shape (...); 0 if not given.
+            roll: Rotation about x in radians, shape (...), or 0 if not given.
+            pitch: Rotation about y in radians, shape (...), or 0 if not given.
+            yaw: Rotation about z in radians, shape (...), or 0 if not given.
             target: The target frame.
             source: The source frame.
             stamp: Time, as in :class:`Transform`.

@@ -41,8 +41,8 @@ class MessagePose:
         translation: Position, an object with x, y, z.
         rotation: Quaternion, an object with x, y, z, w.
         headers: The headers around it, the nearest first.
-        child: The posed frame; "" if the message does not name it.
-        covariance: 36 numbers next to the pose; None if there are none.
+        child: The posed frame, or "" if the message does not name it.
+        covariance: 36 numbers next to the pose, or None if there are none.
     """
 
     translation: Any
@@ -53,7 +53,7 @@ class MessagePose:
 
     @property
     def frame(self) -> str:
-        """The frame that the pose is expressed in; "" if the message does not name it."""
+        """The frame that the pose is expressed in, or "" if the message does not name it."""
         return next((header.frame_id for header in self.headers if header.frame_id), "")
 
     @property
@@ -82,7 +82,7 @@ class Contents:
 
     @property
     def frame(self) -> str | None:
-        """The frame that all poses are expressed in; None if the message does not name it.
+        """The frame that all poses are expressed in, or None if the message does not name it.
 
         Raises:
             FrameMismatchException: There are several.
@@ -91,7 +91,7 @@ class Contents:
 
     @property
     def child(self) -> str | None:
-        """The posed frame; None if the message does not name it.
+        """The posed frame, or None if the message does not name it.
 
         Raises:
             FrameMismatchException: There are several.
@@ -100,7 +100,7 @@ class Contents:
 
     @property
     def covariance(self) -> Array | None:
-        """The covariances, shape (36,) or (N, 36); None if there are none, or if all are zero, which means unknown."""
+        """The covariances, shape (36,) or (N, 36), or None if all are zero, which means unknown."""
         found = [pose.covariance for pose in self.poses]
         if not found or any(each is None for each in found):
             return None
@@ -227,7 +227,7 @@ def moved(transform: Transform, message: Any, pose_of: Any) -> Any:
 
 
 def _pose_fields(value: Any) -> tuple[Any, Any] | None:
-    """Return the position and the orientation of a pose; None for other values."""
+    """Return the position and the orientation of a pose, or None for other values."""
     for linear, angular in _LINEAR_AND_ANGULAR:
         p, q = getattr(value, linear, None), getattr(value, angular, None)
         if hasattr(p, "x") and hasattr(p, "z") and hasattr(q, "x") and hasattr(q, "w"):

@@ -29,8 +29,8 @@ class StepLimits:
     """Maximum step between two successive poses.
 
     Attributes:
-        max_translation: Distance in meters; None for no limit.
-        max_rotation: Angle in radians; None for no limit.
+        max_translation: Distance in meters, or None for no limit.
+        max_rotation: Angle in radians, or None for no limit.
 
     Raises:
         ValueError: A limit is not positive.
@@ -64,7 +64,7 @@ class StepLimits:
         return poses[self._thin(poses)]
 
     def _thin(self, poses: Transform) -> NDArray[np.intp]:
-        """Return the indices of the poses to keep; each one is the last pose within the limits of the previous one."""
+        """Return the indices of the poses to keep. Each one is the last pose within the limits of the previous one."""
         kept = [0]
         last = len(poses) - 1
         while kept[-1] < last:

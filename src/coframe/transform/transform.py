@@ -346,7 +346,7 @@ class Transform(TransformConstructors):
         return f"Transform({frames}{numbers}{stamp})"
 
     def show(self, **options: Any) -> Viewer:
-        """Show the frames in the viewer, or below the cell in a notebook; the same as :func:`coframe.show`.
+        """Show the frames in the viewer, or below the cell in a notebook. This is the same as :func:`coframe.show`.
 
         Args:
             options: The options of :func:`coframe.show`, such as ``fixed="map"``.

@@ -39,7 +39,7 @@ class TransformValues(_core.Transform):
 
     @property
     def stamps(self) -> NDArray[np.int64] | None:
-        """Stamps of a batch in nanoseconds, int64 of shape ``self.shape``; None without stamps or batch axes."""
+        """Stamps of a batch in nanoseconds, int64 of shape ``self.shape``, or None without stamps or batch axes."""
         return None if self._batch is None else self._batch[2]
 
     @property
@@ -54,7 +54,7 @@ class TransformValues(_core.Transform):
 
     @property
     def covariance(self) -> Array | None:
-        """Covariance of the pose, shape (6, 6), for a batch (..., 6, 6); None if the pose counts as exact.
+        """Covariance of the pose, shape (6, 6), for a batch (..., 6, 6), or None if the pose counts as exact.
 
         The order is that of ROS: x, y, z in meters, then rotations about x, y, z in radians. Its axes are those of
         ``target``, its origin is that of ``source``: the true pose is ``self @ Transform.exp(xi)`` with the error xi
@@ -88,32 +88,32 @@ class TransformValues(_core.Transform):
 
     @property
     def x(self) -> Any:
-        """Position along x in meters, as a float; for a batch an array of shape ``self.shape``."""
+        """Position along x in meters, as a float; for a batch, an array of shape ``self.shape``."""
         return self._component(self.translation, 0)
 
     @property
     def y(self) -> Any:
-        """Position along y in meters, as a float; for a batch an array of shape ``self.shape``."""
+        """Position along y in meters, as a float; for a batch, an array of shape ``self.shape``."""
         return self._component(self.translation, 1)
 
     @property
     def z(self) -> Any:
-        """Position along z in meters, as a float; for a batch an array of shape ``self.shape``."""
+        """Position along z in meters, as a float; for a batch, an array of shape ``self.shape``."""
         return self._component(self.translation, 2)
 
     @property
     def roll(self) -> Any:
-        """Rotation about the fixed axis x in radians, as a float; for a batch an array of shape ``self.shape``."""
+        """Rotation about the fixed axis x in radians, as a float; for a batch, an array of shape ``self.shape``."""
         return self._component(self.rpy, 0)
 
     @property
     def pitch(self) -> Any:
-        """Rotation about the fixed axis y in radians, as a float; for a batch an array of shape ``self.shape``."""
+        """Rotation about the fixed axis y in radians, as a float; for a batch, an array of shape ``self.shape``."""
         return self._component(self.rpy, 1)
 
     @property
     def yaw(self) -> Any:
-        """Rotation about the fixed axis z in radians, as a float; for a batch an array of shape ``self.shape``."""
+        """Rotation about the fixed axis z in radians, as a float; for a batch, an array of shape ``self.shape``."""
         return self._component(self.rpy, 2)
 
     @property
@@ -231,7 +231,7 @@ class TransformValues(_core.Transform):
         return scipy.RigidTransform.from_components(self.translation, scipy.Rotation.from_quat(self.quaternion))
 
     def as_pinocchio(self) -> Any:
-        """Return a ``pinocchio.SE3``; for a batch of shape (N,), a list of them.
+        """Return a ``pinocchio.SE3``; for a batch, of shape (N,), a list of them.
 
         Raises:
             ModuleNotFoundError: Pinocchio is not installed.
@@ -263,7 +263,7 @@ def batch_of(
     extrapolated: NDArray[np.int64] | None = None,
     uncertainty: tuple[Array, tuple[str, ...]] | None = None,
 ) -> Transform:
-    """Return a batch on the given arrays (..., 3) and (..., 4) without copying; rows of NaN mean "no transform".
+    """Return a batch on the given arrays (..., 3) and (..., 4) without copying. Rows of NaN mean "no transform".
 
     The arrays must be read-only, because transforms are immutable.
     """
@@ -312,7 +312,7 @@ def pose_rows(transform: TransformValues, shape: tuple[int, ...]) -> tuple[Array
 
 
 def any_stamp(transform: TransformValues) -> Any:
-    """Return the stamp of a single transform, or the stamps of a batch; None without."""
+    """Return the stamp of a single transform, or the stamps of a batch, or None without."""
     return transform.stamp if transform._batch is None else transform.stamps
 
 
@@ -352,7 +352,7 @@ def stamps_of(stamps: Any) -> NDArray[np.int64]:
 
 
 def broadcast_stamps(stamp: Any, shape: tuple[int, ...]) -> NDArray[np.int64] | None:
-    """Return read-only stamps of a batch; None without stamps."""
+    """Return read-only stamps of a batch, or None without stamps."""
     return None if stamp is None else np.broadcast_to(stamps_of(stamp), shape)
 
 

@@ -22,7 +22,7 @@ class Frame:
 
     Attributes:
         name: The name of the frame in tf2.
-        parent: The parent frame; "" for a root.
+        parent: The parent frame, or "" for a root.
         root: The root of the tree in which it is drawn.
         depth: The number of edges up to the root.
         children: The frames that are drawn below it, by name.

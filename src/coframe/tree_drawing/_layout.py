@@ -138,7 +138,7 @@ def _block(frame: Frame, spell: Callable[[str], str]) -> _Block:
 
 
 def _width(text: str, size: float, bold: bool = False) -> float:
-    """Return the estimated width in a sans-serif font; most text is narrower."""
+    """Return the estimated width in a sans-serif font. Most text is narrower."""
     units = sum(2.0 if unicodedata.east_asian_width(c) in "WF" else 1.4 if c in _WIDE_CHARACTERS else 1.0 for c in text)
     return units * size * (0.62 if bold else 0.54)
 

@@ -46,7 +46,7 @@ def stamps_off(offset: ClockOffset) -> str:
 
 
 def edge_statistics(edge: EdgeStatistics) -> list[str]:
-    """Return the statistics of one publisher of an edge; a static edge has none."""
+    """Return the statistics of one publisher of an edge. A static edge has none."""
     if edge.static:
         return [f"static{_publisher_suffix(edge)}"]
     rate = ["published once" if edge.rate is None else f"{edge.rate:.1f} Hz"]

@@ -48,7 +48,7 @@ def _trees(forest: Forest) -> Iterator[str]:
 
 
 def _arrows(forest: Forest) -> Iterator[str]:
-    """Yield the arrows; those from other parents and those that close a loop are dashed."""
+    """Yield the arrows. Those from other parents and those that close a loop are dashed."""
     names = _ids(forest)
     for frame in forest.frames.values():
         if frame.parent:

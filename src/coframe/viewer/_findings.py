@@ -94,7 +94,7 @@ class _FindingsJob:
             self._thread.start()
 
     def end(self) -> None:
-        """End the examination soon; its thread releases its resources."""
+        """End the examination soon. Its thread releases its resources."""
         self._end.set()
 
     def join(self) -> None:

@@ -12,7 +12,7 @@ STATIC = Path(__file__).resolve().parent / "static"
 
 
 def find(file: Path) -> Path | None:
-    """Return the file, or the compressed file `NAME.gz` instead; None if neither exists."""
+    """Return the file, or the compressed file `NAME.gz` instead, or None if neither exists."""
     for candidate in (file, file.with_name(f"{file.name}.gz")):
         if candidate.is_file():
             return candidate

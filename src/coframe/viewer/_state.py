@@ -51,7 +51,7 @@ class ViewerState:
         fixed: The requested fixed frame; "" selects the root of the largest tree.
         rviz: The initial configuration of each client.
         robot: A robot that is shown in addition to published ones.
-        meshes: The meshes that may be fetched; None for none.
+        meshes: The meshes that may be fetched, or None for none.
         joint_states: The topic on which positions of joints are published.
     """
 
@@ -89,7 +89,7 @@ class ViewerState:
         self.refresh()
 
     def set_source(self, source: ViewerSource) -> None:
-        """Show another source; all clients start from scratch."""
+        """Show another source. All clients start from scratch."""
         self._close_tools()
         self.panels.close()
         self.panels = Panels(source)
@@ -135,7 +135,7 @@ class ViewerState:
         return None if span is None else (span[0] - self.origin, span[1] - self.origin)
 
     def open(self, topic: str) -> TopicMessages | None:
-        """Return the messages on a topic, which all clients share; None if the topic does not exist."""
+        """Return the messages on a topic, which all clients share, or None if the topic does not exist."""
         shared = self._open.get(topic)
         if shared is None:
             messages = self.source.open(topic)
@@ -212,7 +212,7 @@ class ViewerState:
         return self._tools
 
     def prepare_replay(self, settings: ReplaySettings) -> str:
-        """Store the settings of a replay; return the token with which it is requested."""
+        """Store the settings of a replay, and return the token with which it is requested."""
         token = secrets.token_urlsafe(12)
         self._prepared_replays[token] = settings
         while len(self._prepared_replays) > _MAX_PREPARED_REPLAYS:

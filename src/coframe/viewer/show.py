@@ -97,7 +97,7 @@ class Viewer:
         return self._gui
 
     def set_source(self, source: ViewerSource) -> None:
-        """Show another source; the viewer closes it when it stops."""
+        """Show another source. The viewer closes it when it stops."""
         self._sources.append(source)
         self._server.call(self._state.set_source, source)
 

@@ -55,10 +55,10 @@ class BackendEndpoint(Protocol):
 
     @property
     def refused_policy(self) -> int:
-        """The DDS number of the QoS policy that made the last match fail; 0 if no match failed."""
+        """The DDS number of the QoS policy that made the last match fail, or 0 if no match failed."""
 
     def take_status(self, kind: int) -> tuple[int, int, int, int] | None:
-        """Return the counts of a status if it has changed since the last call; see `LocalEndpoint.take_status`."""
+        """Return the counts of a status if it has changed since the last call. See `LocalEndpoint.take_status`."""
 
     def close(self) -> None:
         """Close the endpoint; no callback runs afterwards. A second call has no effect."""
@@ -83,7 +83,7 @@ class BackendWriter(BackendEndpoint, Protocol):
         failure: Callable[[str], BaseException],
         of_items: bool,
     ) -> Callable[[object], bool] | None:
-        """Return a native function that does what `publish` does; None if the middleware has none.
+        """Return a native function that does what `publish` does, or None if the middleware has none.
 
         Args:
             codec: The codec of the message class.
@@ -146,7 +146,7 @@ class BackendTap(BackendEndpoint, Protocol):
     """A subscription that records messages with their arrival times."""
 
     def take(self) -> tuple[bytes, bytes, bytes, bytes, bytes]:
-        """Return the messages since the last call; see `_core.Tap.take`."""
+        """Return the messages since the last call. See `_core.Tap.take`."""
 
     @property
     def missed(self) -> int:
@@ -154,7 +154,7 @@ class BackendTap(BackendEndpoint, Protocol):
 
 
 class BackendTfReader(BackendEndpoint, Protocol):
-    """A subscription that stores transforms in a buffer without the GIL; it has the methods of `_core.TfReader`."""
+    """A subscription that stores transforms in a buffer without the GIL. It has the methods of `_core.TfReader`."""
 
     @property
     def stored_at(self) -> int: ...

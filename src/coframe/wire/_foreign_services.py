@@ -16,7 +16,7 @@ def foreign_services_text(topic: str, middleware: str, node: str | None, *, is_w
     Args:
         topic: The DDS topic of the requests or replies.
         middleware: The middleware of the other node.
-        node: The name of the other node; None if it is unknown.
+        node: The name of the other node, or None if it is unknown.
         is_writer: Whether this process publishes on the topic.
     """
     service = names.any_ros_name(topic)

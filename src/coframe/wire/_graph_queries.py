@@ -21,7 +21,7 @@ class GraphQueries:
 
     @property
     def qos_must_match(self) -> bool:
-        """Whether endpoints with incompatible quality of service do not communicate; the middleware decides."""
+        """Whether endpoints with incompatible quality of service do not communicate. The middleware decides."""
         return self._graph.qos_must_match
 
     def nodes(self) -> list[tuple[str, str]]:
@@ -86,11 +86,11 @@ class GraphQueries:
         return self._graph.writers(names.dds_topic(topic))
 
     def writer_node(self, handle: int) -> str | None:
-        """Return the full name of the node that a writer belongs to, such as "/talker"; None if it is unknown."""
+        """Return the full name of the node that a writer belongs to, such as "/talker", or None if it is unknown."""
         return self._graph.writer_node(handle)
 
     def find_writer(self, handle: int) -> DiscoveredEndpoint | None:
-        """Return a writer by its handle; None if it has left."""
+        """Return a writer by its handle, or None if it has left."""
         return self._graph.writer(handle)
 
     def _describe(self, endpoints: dict[int, DiscoveredEndpoint]) -> list[EndpointInfo]:

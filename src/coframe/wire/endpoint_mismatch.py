@@ -81,7 +81,7 @@ def mismatch_text(
     Args:
         own: The endpoint of this process.
         peer: The endpoint of the other node.
-        node: The name of the other node; None if it is unknown.
+        node: The name of the other node, or None if it is unknown.
         reason: "type", "services", "other" or a QoS policy.
         middleware: The middleware of the other node, for the reason "services".
     """

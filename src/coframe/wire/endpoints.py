@@ -76,7 +76,7 @@ class GraphNode:
         return list(self._endpoints.values())
 
     def find_writer(self, handle: int) -> DiscoveredEndpoint | None:
-        """Return the writer that sent a `Sample`, given its handle; None if it has left."""
+        """Return the writer that sent a `Sample`, given its handle, or None if it has left."""
         return self._participant.find_writer(handle)
 
     def info(self) -> NodeInfo:
@@ -141,11 +141,11 @@ class LocalEndpoint:
 
     @property
     def matched(self) -> int:
-        """The number of matched endpoints on the other side; 0 after `close`."""
+        """The number of matched endpoints on the other side, or 0 after `close`."""
         return self._read_unless_closed(lambda: self._endpoint.matched, 0)
 
     def writer(self, handle: int) -> DiscoveredEndpoint | None:
-        """Return the writer that sent a `Sample`, given its handle; None if it has left."""
+        """Return the writer that sent a `Sample`, given its handle, or None if it has left."""
         with self._lock:
             node = self._nodes[0] if self._nodes else None
         return None if node is None else node.find_writer(handle)
@@ -156,7 +156,7 @@ class LocalEndpoint:
 
     @property
     def refused_policy(self) -> int:
-        """The DDS number of the QoS policy that made the last match fail; 0 if no match failed."""
+        """The DDS number of the QoS policy that made the last match fail, or 0 if no match failed."""
         return self._read_unless_closed(lambda: self._endpoint.refused_policy, 0)
 
     def take_status(self, kind: int) -> StatusCounts | None:
@@ -180,7 +180,7 @@ class LocalEndpoint:
         return False
 
     def take_warning(self) -> str:
-        """Return a warning about the messages that were ignored since the last call; "" if there are none."""
+        """Return a warning about the messages that were ignored since the last call, or "" if there are none."""
         return ""
 
     @property

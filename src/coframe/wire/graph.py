@@ -30,7 +30,7 @@ class EndpointInfo:
         ros_type: The ROS type, such as "tf2_msgs/msg/TFMessage".
         qos: The offered or requested quality of service. The depth is not always announced.
         guid: The identifier of the endpoint, 16 bytes; in DDS, its GUID.
-        type_hash: The hash of the message definition, "RIHS01_..."; "" if it is not announced, as in Humble.
+        type_hash: The hash of the message definition, "RIHS01_...", or "" if it is not announced, as in Humble.
     """
 
     node: str
@@ -86,7 +86,7 @@ class Graph:
         raise NotImplementedError
 
     def foreign_services(self, peer: DiscoveredEndpoint) -> str:
-        """Return the middleware of an endpoint if it sends requests in another form than this process; "" if not."""
+        """Return the middleware of an endpoint if it sends requests in another form than this process, or "" if not."""
         del peer
         return ""
 
@@ -101,7 +101,7 @@ class Graph:
         return False
 
     def foreign_writer(self, handle: int) -> str:
-        """Return what `foreign_services` returns for a writer, given its handle; it may have left."""
+        """Return what `foreign_services` returns for a writer, given its handle. It may have left."""
         writer = self.writer(handle)
         return "" if writer is None else self.foreign_services(writer)
 
@@ -158,7 +158,7 @@ class Graph:
             return {handle: reader for handle, reader in self._readers.items() if reader.topic == topic}
 
     def writer(self, handle: int) -> DiscoveredEndpoint | None:
-        """Return a writer by its handle; None if it has left."""
+        """Return a writer by its handle, or None if it has left."""
         if handle not in self._writers:
             self.refresh()
         return self._writers.get(handle)
@@ -184,12 +184,12 @@ class Graph:
         )
 
     def owner(self, guid: bytes) -> str | None:
-        """Return the full name of the node that owns an endpoint, such as "/talker"; None if it is unknown."""
+        """Return the full name of the node that owns an endpoint, such as "/talker", or None if it is unknown."""
         node = self._owners.get(guid)
         return names.full_name(node.namespace, node.name) if node else None
 
     def writer_node(self, handle: int) -> str | None:
-        """Return the full name of the node of a writer on a ROS topic; None if it is unknown.
+        """Return the full name of the node of a writer on a ROS topic, or None if it is unknown.
 
         The names of recently departed writers are kept.
         """

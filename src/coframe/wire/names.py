@@ -42,7 +42,7 @@ def dds_topic(name: str, kind: Kind = "topic") -> str:
 
 
 def ros_topic(name: str, kind: Kind = "topic") -> str | None:
-    """Return the ROS name of a DDS topic; None if the topic is not of this kind."""
+    """Return the ROS name of a DDS topic, or None if the topic is not of this kind."""
     prefix, suffix = _AFFIXES[kind]
     if name.startswith(prefix + "/") and name.endswith(suffix):
         return name[len(prefix) : len(name) - len(suffix)]
@@ -61,7 +61,7 @@ def dds_type(ros_type: str) -> str:
 
 
 def ros_type(name: str) -> str:
-    """Return the ROS type of a DDS type; the name itself if it does not follow the ROS convention."""
+    """Return the ROS type of a DDS type, or the name itself if it does not follow the ROS convention."""
     parts = name.split("::")
     if len(parts) < 3 or parts[-2] != "dds_" or not parts[-1].endswith("_"):
         return name
@@ -103,7 +103,7 @@ def ros_type_of(message_type: type) -> str:
 
 
 def any_ros_name(topic: str) -> str:
-    """Return the ROS name of a DDS topic of any kind; the name itself if it is not a ROS topic."""
+    """Return the ROS name of a DDS topic of any kind, or the name itself if it is not a ROS topic."""
     for kind in _AFFIXES:
         if (name := ros_topic(topic, kind)) is not None:
             return name

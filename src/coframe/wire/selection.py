@@ -140,7 +140,7 @@ def select(environment: Mapping[str, str] = os.environ) -> Selection:
 
 
 def _requested_middleware(environment: Mapping[str, str]) -> Selection | None:
-    """Return the middleware that the user has selected; None if there is no selection."""
+    """Return the middleware that the user has selected, or None if there is no selection."""
     if environment is os.environ and _command_line_choice:
         return Selection(_command_line_choice["wire"], "--wire is given")
     if wire := environment.get(VARIABLE, "").strip().lower():
@@ -161,7 +161,7 @@ def _requested_middleware(environment: Mapping[str, str]) -> Selection | None:
 
 
 def _installed_middleware(environment: Mapping[str, str]) -> Selection:
-    """Return the first middleware that is available; the default if there is none."""
+    """Return the first middleware that is available, or the default if there is none."""
     first = next((row for row in middlewares() if row.load().is_available(environment)), DEFAULT)
     if first is DEFAULT:
         return Selection(first.wire, "it is the default")

@@ -40,7 +40,7 @@ class _Peers(NamedTuple):
 
     Attributes:
         understood: The number of matched endpoints that use the same form of requests and replies.
-        foreign: An endpoint that uses another form, whether it is matched or not; None if there is none.
+        foreign: An endpoint that uses another form, whether it is matched or not, or None if there is none.
         receiver: An endpoint of the same kind that may receive what this process publishes.
     """
 
@@ -50,7 +50,7 @@ class _Peers(NamedTuple):
 
     @property
     def refusing(self) -> DiscoveredEndpoint | None:
-        """The endpoint that prevents requests from being sent; None if requests can be sent."""
+        """The endpoint that prevents requests from being sent, or None if requests can be sent."""
         return self.receiver if self.understood else self.foreign
 
 
@@ -98,13 +98,13 @@ class ServicePublisher(RawPublisher):
 
     @property
     def matched(self) -> int:
-        """The number of matched subscriptions that understand the messages; 0 if no request can be sent."""
+        """The number of matched subscriptions that understand the messages, or 0 if no request can be sent."""
         peers = self._peers()
         return 0 if self._sends_requests and peers.refusing else peers.understood
 
     @property
     def refusal(self) -> str:
-        """The warning about a server that would misread a request, so that none can be sent; "" if there is none."""
+        """The warning about a server that would misread a request, so that none can be sent, or "" if there is none."""
         peer = self._peers().refusing
         return "" if peer is None else self._text(peer)
 
@@ -218,7 +218,7 @@ class ServiceSubscription(Subscription):
         self._last_ignored = writer, reason
 
     def ignore_request(self, request: ServiceMessage, reason: str) -> None:
-        """Count an ignored request that will not be answered; see `ignore`."""
+        """Count an ignored request that will not be answered. See `ignore`."""
         self.ignore(request.writer, reason)
         self._service_reader.reject(request.header)
 

@@ -34,12 +34,12 @@ class WriterStatistics(NamedTuple):
         writer: The writer's handle.
         messages: The number of messages.
         received_at: The time at which the last one arrived, in nanoseconds of `time.monotonic_ns`.
-        period: The median interval between the arrivals of the last messages, in nanoseconds; 0 for fewer than two.
+        period: The median interval between the arrivals of the last messages, in nanoseconds, or 0 for fewer than two.
         lag: The delay of the stamps relative to the system clock on arrival, in nanoseconds: the lower quartile of
             the last messages. None if there are too few messages.
-        slashed: A frame name that begins with a slash; "" if there is none.
-        prefixed: A frame name that already has the prefix of the reader; "" if there is none.
-        plain: A frame name without that prefix; "" if there is none.
+        slashed: A frame name that begins with a slash, or "" if there is none.
+        prefixed: A frame name that already has the prefix of the reader, or "" if there is none.
+        plain: A frame name without that prefix, or "" if there is none.
     """
 
     writer: int
@@ -76,7 +76,7 @@ class TfReader(LocalEndpoint):
 
     @property
     def stored_at(self) -> int:
-        """The time at which the last transforms were stored, in nanoseconds of `time.monotonic_ns`; 0 if never."""
+        """The time at which the last transforms were stored, in nanoseconds of `time.monotonic_ns`, or 0 if never."""
         return self._reader.stored_at
 
     def pending(self) -> bool:

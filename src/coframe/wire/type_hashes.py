@@ -17,7 +17,7 @@ _CONSTANTS = {
 
 
 def type_hash_of_name(ros_type: str) -> str:
-    """Return the hash of a type; "" if its definition is unknown in this process."""
+    """Return the hash of a type, or "" if its definition is unknown in this process."""
     if (known := _CONSTANTS.get(ros_type)) is not None:
         return known
     from coframe.messages.registry import find  # noqa: PLC0415 - importing coframe.wire must be cheap

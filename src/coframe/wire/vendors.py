@@ -41,7 +41,7 @@ _WITHOUT_DEFAULT_PARTITION = {FAST_DDS}
 
 
 def vendor(guid: bytes) -> str:
-    """Return the DDS implementation that created an entity; "" if it is unknown.
+    """Return the DDS implementation that created an entity, or "" if it is unknown.
 
     Args:
         guid: The GUID of an endpoint or a participant.

@@ -162,7 +162,7 @@ def _search_guarded(find: Callable[[], ModuleSpec | None]) -> ModuleSpec | None:
 
 
 def _is_foreign() -> bool:
-    """Return whether a ROS installation provides rclpy; it cannot use coframe's classes."""
+    """Return whether a ROS installation provides rclpy. It cannot use coframe's classes."""
     return bool(foreign_packages(tuple(sys.path)))
 
 

@@ -29,7 +29,7 @@ _CHECK = 1.0  # seconds
 
 
 def main() -> object:
-    """Run the program named by the first argument; it sees its own file and arguments in ``sys.argv``."""
+    """Run the program named by the first argument. It sees its own file and arguments in ``sys.argv``."""
     if os.environ.get(LAUNCHER) == str(os.getppid()):
         _end_with_launcher()
     del sys.argv[0]

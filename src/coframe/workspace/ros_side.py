@@ -39,7 +39,7 @@ def choose_listener_wire(wire: str) -> None:
 
 
 def listener_wire() -> str:
-    """Return what `choose_listener_wire` has chosen; "" if nothing was chosen."""
+    """Return what `choose_listener_wire` has chosen, or "" if nothing was chosen."""
     return _listeners["wire"]
 
 

@@ -59,7 +59,7 @@ def get_package_share_directory(package_name: str, print_warning: bool = True) -
 
 
 def get_package_share_path(package_name: str, print_warning: bool = True) -> Path:
-    """Return the share directory of a package as a Path; see `get_package_share_directory`."""
+    """Return the share directory of a package as a Path. See `get_package_share_directory`."""
     return Path(get_package_share_directory(package_name, print_warning))
 
 

@@ -50,7 +50,7 @@ class Action(LaunchDescriptionEntity):
         return self.__repr__()
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Return the entities that this action contains; subclasses override it."""
+        """Return the entities that this action contains. Subclasses override it."""
         return []
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
@@ -79,6 +79,6 @@ class Action(LaunchDescriptionEntity):
                     future.add_done_callback(lambda _: context.emit_event_sync(event))
 
     def execute(self, context: LaunchContext) -> list[Any] | None:
-        """Do the work of the action and return the entities to visit next; subclasses override it."""
+        """Do the work of the action and return the entities to visit next. Subclasses override it."""
         del context
         return None

@@ -132,7 +132,7 @@ class LaunchContext:
         os.environ.update(environment)
 
     def register_event_handler(self, event_handler: BaseEventHandler, append: bool = False) -> None:
-        """Register a handler; it comes before all others, or after them with `append`."""
+        """Register a handler. It comes before all others, or after them with `append`."""
         if append:
             self._event_handlers.append(event_handler)
         else:

@@ -45,7 +45,7 @@ class LaunchDescription(LaunchDescriptionEntity):
 
     @property
     def deprecated_reason(self) -> str | None:
-        """Why the description is deprecated; None if it is not."""
+        """Why the description is deprecated, or None if it is not."""
         return self.__deprecated_reason
 
     def add_entity(self, entity: LaunchDescriptionEntity) -> None:

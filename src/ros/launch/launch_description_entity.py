@@ -34,5 +34,5 @@ class LaunchDescriptionEntity:
         return None
 
     def get_asyncio_future(self) -> asyncio.Future[Any] | None:
-        """Return the future that is done when the entity has finished; None if it finishes in `visit`."""
+        """Return the future that is done when the entity has finished, or None if it finishes in `visit`."""
         return None

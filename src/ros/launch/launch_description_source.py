@@ -50,7 +50,7 @@ class LaunchDescriptionSource:
         return self.__method
 
     def try_get_launch_description_without_context(self) -> LaunchDescription | None:
-        """Return the description if its file is known without a context; None otherwise."""
+        """Return the description if its file is known without a context, or None otherwise."""
         if self.__launch_description is None:
             parts = self.__location
             if not all(isinstance(part, TextSubstitution) for part in parts):

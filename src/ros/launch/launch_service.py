@@ -68,18 +68,18 @@ class LaunchService:
         return self.__task
 
     def emit_event(self, event: Event) -> None:
-        """Emit an event; this may be called from any thread."""
+        """Emit an event. This may be called from any thread."""
         if self.__loop is None:
             self.__context.emit_event_sync(event)
         else:
             self.__loop.call_soon_threadsafe(self.__context.emit_event_sync, event)
 
     def include_launch_description(self, launch_description: LaunchDescription) -> None:
-        """Visit a launch description; this may be called from any thread, also while the service runs."""
+        """Visit a launch description. This may be called from any thread, also while the service runs."""
         self.emit_event(IncludeLaunchDescription(launch_description))
 
     def shutdown(self, *, force_sync: bool = False) -> asyncio.Future[Any] | None:
-        """Shut the system down; this may be called from any thread.
+        """Shut the system down. This may be called from any thread.
 
         Args:
             force_sync: Accepted for compatibility: events are always emitted synchronously.
@@ -200,7 +200,7 @@ class LaunchService:
 
     @contextlib.contextmanager
     def __signal_handlers(self) -> Iterator[None]:
-        """Shut down on signals; only the main thread may handle them."""
+        """Shut down on signals. Only the main thread may handle them."""
         if threading.current_thread() is not threading.main_thread():
             yield
             return

@@ -26,7 +26,7 @@ class ParameterValue:
 
     Args:
         value: The value of the parameter; it may contain substitutions.
-        value_type: Its type, such as `str`; None for the type that YAML gives the text.
+        value_type: Its type, such as `str`, or None for the type that YAML gives the text.
     """
 
     def __init__(self, value: Any, *, value_type: Any = None) -> None:
@@ -59,7 +59,7 @@ class Parameter:
     Args:
         name: The name of the parameter.
         value: The value of the parameter.
-        value_type: The type of the value; None for the type that YAML gives it.
+        value_type: The type of the value, or None for the type that YAML gives it.
     """
 
     def __init__(self, name: SomeSubstitutionsType, value: Any, *, value_type: Any = None) -> None:
@@ -116,7 +116,7 @@ class ParameterFile:
         return f"launch_ros.description.ParameterFile(param_file={self.param_file}, allow_substs={self.allow_substs})"
 
     def evaluate(self, context: LaunchContext) -> Path:
-        """Return the path; if the file has substitutions, the path of a copy in which they are performed."""
+        """Return the path. If the file has substitutions, the path of a copy in which they are performed."""
         path = Path(perform_substitutions(context, self.__param_file))
         if perform_typed_substitution(context, self.__allow_substs, bool) and path.is_file():
             text = perform_substitutions(context, parse_text(read_regular_text(path, MAX_BYTES)))

@@ -56,7 +56,7 @@ class ROSAdapter:
 
 
 def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
-    """Return the adapter of a launch; it is created at the first call, and ends when the launch shuts down."""
+    """Return the adapter of a launch. It is created at the first call, and ends when the launch shuts down."""
     from launch.event_handlers import OnShutdown  # noqa: PLC0415 - not needed without a node
 
     found = context.get_locals_as_dict().get("ros_adapter")
@@ -69,5 +69,5 @@ def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
 
 
 def get_ros_node(context: LaunchContext) -> Node:
-    """Return the node of a launch; it is created at the first call."""
+    """Return the node of a launch. It is created at the first call."""
     return get_ros_adapter(context).ros_node

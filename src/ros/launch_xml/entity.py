@@ -55,7 +55,7 @@ class Entity(BaseEntity):
             raise ValueError(f"Unexpected nested entity(ies) found in `{self.type_name}`: {sorted(children)}")
 
     def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
-        """Return an attribute; see `launch.frontend.Entity.get_attr`. ``NAME-sep`` splits it into a list."""
+        """Return an attribute. See `launch.frontend.Entity.get_attr`. ``NAME-sep`` splits it into a list."""
         if is_list_of_entities(data_type):
             found = [Entity(child, parent=self) for child in self.__element if child.tag == name]
             self.__read_children.add(name)

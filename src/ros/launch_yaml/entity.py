@@ -64,7 +64,7 @@ class Entity(BaseEntity):
             raise ValueError(f"Unexpected key(s) found in `{self.type_name}`: {sorted(map(str, unread))}")
 
     def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
-        """Return an attribute; see `launch.frontend.Entity.get_attr`."""
+        """Return an attribute. See `launch.frontend.Entity.get_attr`."""
         if not isinstance(self.__element, dict) or name not in self.__element:
             if optional:
                 return None

@@ -30,7 +30,7 @@ class Chain(SimpleFilter):
         return len(self._filters) - 1
 
     def getFilter(self, index: int) -> Any:
-        """Return the filter with an index; None if there is none."""
+        """Return the filter with an index, or None if there is none."""
         return self._filters[index] if 0 <= index < len(self._filters) else None
 
     def connectInput(self, f: SimpleFilter) -> None:

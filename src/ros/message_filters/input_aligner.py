@@ -22,7 +22,7 @@ _S_TO_NS = 1_000_000_000
 
 
 class _Input:
-    """The messages of one filter that wait, its callbacks, and its period in nanoseconds; 0 if it is unknown."""
+    """The messages of one filter that wait, its callbacks, and its period in nanoseconds, or 0 if it is unknown."""
 
     def __init__(self) -> None:
         self.waiting: deque[tuple[int, Any]] = deque()
@@ -61,7 +61,7 @@ class InputAligner:
         self._inputs[index].period = as_nanoseconds(period)
 
     def registerCallback(self, index: int, cb: Callable[..., Any], *args: Any) -> int:
-        """Add a callback for the messages of the filter with an index; see `SimpleFilter.registerCallback`."""
+        """Add a callback for the messages of the filter with an index. See `SimpleFilter.registerCallback`."""
         return self._inputs[index].output.registerCallback(cb, *args)
 
     def setupDispatchTimer(self, node: Node, update_rate: Duration | float) -> None:

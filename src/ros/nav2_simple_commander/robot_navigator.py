@@ -113,32 +113,32 @@ class BasicNavigator(Node):
         self._setInitialPose()
 
     def goThroughPoses(self, poses: list[PoseStamped], behavior_tree: str = "") -> bool:
-        """Send the goal to drive through poses; return whether it was accepted."""
+        """Send the goal to drive through poses, and return whether it was accepted."""
         goal = NavigateThroughPoses.Goal(poses=poses, behavior_tree=behavior_tree)
         self.info(f"Navigating with {len(poses)} goals....")
         return self._send(self.nav_through_poses_client, goal, f"Goal with {len(poses)} poses was rejected!")
 
     def goToPose(self, pose: PoseStamped, behavior_tree: str = "") -> bool:
-        """Send the goal to drive to a pose; return whether it was accepted."""
+        """Send the goal to drive to a pose, and return whether it was accepted."""
         where = f"{pose.pose.position.x} {pose.pose.position.y}"
         self.info(f"Navigating to goal: {where}...")
         goal = NavigateToPose.Goal(pose=pose, behavior_tree=behavior_tree)
         return self._send(self.nav_to_pose_client, goal, f"Goal to {where} was rejected!")
 
     def followWaypoints(self, poses: list[PoseStamped]) -> bool:
-        """Send the goal to stop at each of some poses; return whether it was accepted."""
+        """Send the goal to stop at each of some poses, and return whether it was accepted."""
         self.info(f"Following {len(poses)} goals....")
         goal = FollowWaypoints.Goal(poses=poses)
         return self._send(self.follow_waypoints_client, goal, f"Following {len(poses)} waypoints request was rejected!")
 
     def spin(self, spin_dist: float = 1.57, time_allowance: int = 10) -> bool:
-        """Send the goal to turn by an angle in radians; return whether it was accepted."""
+        """Send the goal to turn by an angle in radians, and return whether it was accepted."""
         self.info(f"Spinning to angle {spin_dist}....")
         goal = Spin.Goal(target_yaw=float(spin_dist), time_allowance=Duration(sec=time_allowance))
         return self._send(self.spin_client, goal, "Spin request was rejected!")
 
     def backup(self, backup_dist: float = 0.15, backup_speed: float = 0.025, time_allowance: int = 10) -> bool:
-        """Send the goal to drive backwards by a distance in meters; return whether it was accepted."""
+        """Send the goal to drive backwards by a distance in meters, and return whether it was accepted."""
         self.info(f"Backing up {backup_dist} m at {backup_speed} m/s....")
         goal = BackUp.Goal(
             target=Point(x=float(backup_dist)),
@@ -148,13 +148,13 @@ class BasicNavigator(Node):
         return self._send(self.backup_client, goal, "Backup request was rejected!")
 
     def assistedTeleop(self, time_allowance: int = 30) -> bool:
-        """Send the goal to follow commands of an operator; return whether it was accepted."""
+        """Send the goal to follow commands of an operator, and return whether it was accepted."""
         self.info("Waiting for 'assisted_teleop' action server")
         goal = AssistedTeleop.Goal(time_allowance=Duration(sec=time_allowance))
         return self._send(self.assisted_teleop_client, goal, "Assisted Teleop request was rejected!")
 
     def followPath(self, path: Any, controller_id: str = "", goal_checker_id: str = "") -> bool:
-        """Send the goal to follow a path; return whether it was accepted."""
+        """Send the goal to follow a path, and return whether it was accepted."""
         self.info("Executing path...")
         goal = FollowPath.Goal(path=path, controller_id=controller_id, goal_checker_id=goal_checker_id)
         return self._send(self.follow_path_client, goal, "Follow path was rejected!")
@@ -180,7 +180,7 @@ class BasicNavigator(Node):
         return True
 
     def getFeedback(self) -> Any:
-        """Return the last feedback of the current task; None if there was none."""
+        """Return the last feedback of the current task, or None if there was none."""
         return self.feedback
 
     def getResult(self) -> TaskResult:
@@ -197,7 +197,7 @@ class BasicNavigator(Node):
         self.info("Nav2 is ready for use!")
 
     def getPath(self, start: PoseStamped, goal: PoseStamped, planner_id: str = "", use_start: bool = False) -> Any:
-        """Return a path to a pose; None if there is none."""
+        """Return a path to a pose, or None if there is none."""
         request = ComputePathToPose.Goal(start=start, goal=goal, planner_id=planner_id, use_start=use_start)
         result = self._result(self.compute_path_to_pose_client, request, "Get path was rejected!", "Getting path")
         return None if result is None else result.path
@@ -205,7 +205,7 @@ class BasicNavigator(Node):
     def getPathThroughPoses(
         self, start: PoseStamped, goals: list[PoseStamped], planner_id: str = "", use_start: bool = False
     ) -> Any:
-        """Return a path through poses; None if there is none."""
+        """Return a path through poses, or None if there is none."""
         request = ComputePathThroughPoses.Goal(start=start, goals=goals, planner_id=planner_id, use_start=use_start)
         client = self.compute_path_through_poses_client
         result = self._result(client, request, "Get path was rejected!", "Getting path")
@@ -214,14 +214,14 @@ class BasicNavigator(Node):
     def smoothPath(
         self, path: Any, smoother_id: str = "", max_duration: float = 2.0, check_for_collision: bool = False
     ) -> Any:
-        """Return a smoothed path; None if that fails."""
+        """Return a smoothed path, or None if that fails."""
         request = SmoothPath.Goal(path=path, smoother_id=smoother_id, check_for_collisions=check_for_collision)
         request.max_smoothing_duration = rclpy.duration.Duration(seconds=max_duration).to_msg()
         result = self._result(self.smoother_client, request, "Smooth path was rejected!", "Smoothing path")
         return None if result is None else result.path
 
     def changeMap(self, map_filepath: str) -> bool:
-        """Load another map; return whether that succeeded."""
+        """Load another map, and return whether that succeeded."""
         response = self._call(self.change_maps_srv, LoadMap.Request(map_url=map_filepath), "change map")
         if response.result != LoadMap.Response.RESULT_SUCCESS:
             self.error("Change map request failed!")
@@ -286,7 +286,7 @@ class BasicNavigator(Node):
         return True
 
     def _result(self, client: ActionClient, goal: Any, rejected: str, what: str) -> Any:
-        """Send a goal and return its result; None if it failed."""
+        """Send a goal and return its result, or None if it failed."""
         handle = self._accepted(client, goal, None)
         self.goal_handle = handle
         if not handle.accepted:

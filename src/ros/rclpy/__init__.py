@@ -234,7 +234,7 @@ def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None 
 
 
 def try_shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
-    """Shut down ROS communication unless it is shut down already; see `shutdown`."""
+    """Shut down ROS communication unless it is shut down already. See `shutdown`."""
     chosen = get_default_context() if context is None else context
     # After a signal, the default context is replaced, so that init() works again.
     if chosen.ok() or chosen._Coframe__was_shut_down_by_signal:  # noqa: SLF001 - shared in rclpy

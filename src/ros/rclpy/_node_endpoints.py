@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 
 class Node(NodeParameters, NodeGraph):
-    """The part of `rclpy.node.Node` that communicates over the graph; it has that name because errors contain it.
+    """The part of `rclpy.node.Node` that communicates over the graph. It has that name because errors contain it.
 
     Attributes:
         executor: The executor of the node.

@@ -141,7 +141,7 @@ class NodeGraph:
         return [_info(endpoint, TopicEndpointTypeEnum.PUBLISHER) for endpoint in endpoints]
 
     def get_subscriptions_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
-        """Return information about all subscriptions of a topic; see `get_publishers_info_by_topic`."""
+        """Return information about all subscriptions of a topic. See `get_publishers_info_by_topic`."""
         topic, kind = self.__topic_and_kind(topic_name, no_mangle=no_mangle)
         endpoints = self._Coframe__participant.subscribers(topic, kind=kind)
         return [_info(endpoint, TopicEndpointTypeEnum.SUBSCRIPTION) for endpoint in endpoints]
@@ -159,7 +159,7 @@ class NodeGraph:
         return self.__service_endpoints(service_name, ServiceEndpointTypeEnum.CLIENT, no_mangle=no_mangle)
 
     def get_servers_info_by_service(self, service_name: str, no_mangle: bool = False) -> list[ServiceEndpointInfo]:
-        """Return information about all servers of a service; see `get_clients_info_by_service`."""
+        """Return information about all servers of a service. See `get_clients_info_by_service`."""
         return self.__service_endpoints(service_name, ServiceEndpointTypeEnum.SERVER, no_mangle=no_mangle)
 
     def __service_endpoints(
@@ -197,7 +197,7 @@ class NodeGraph:
     def get_subscriber_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
-        """Return the topics that a node subscribes to; see `get_publisher_names_and_types_by_node`."""
+        """Return the topics that a node subscribes to. See `get_publisher_names_and_types_by_node`."""
         self.__check_node(node_name, node_namespace, "subscriber")
         participant = self._Coframe__participant
         endpoints = {topic: participant.subscribers(topic) for topic in participant.topics()}
@@ -302,7 +302,7 @@ def _info(endpoint: EndpointInfo, kind: TopicEndpointTypeEnum) -> TopicEndpointI
 
 
 def _reply_of(request: EndpointInfo, replies: list[EndpointInfo]) -> EndpointInfo | None:
-    """Return the endpoint for replies that belongs to the same node; None if it is not discovered yet."""
+    """Return the endpoint for replies that belongs to the same node, or None if it is not discovered yet."""
     return next((each for each in replies if (each.node, each.namespace) == (request.node, request.namespace)), None)
 
 

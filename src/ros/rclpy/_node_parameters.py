@@ -204,7 +204,7 @@ class NodeParameters:
             return parameter
 
     def get_parameters(self, names: list[str]) -> list[Parameter[Any]]:
-        """Return several parameters; see `get_parameter`."""
+        """Return several parameters. See `get_parameter`."""
         return [self.get_parameter(name) for name in names]
 
     def get_parameter_or(self, name: str, alternative_value: Parameter[Any] | None = None) -> Parameter[Any]:
@@ -227,7 +227,7 @@ class NodeParameters:
         return Parameter.Type.NOT_SET if parameter is None else parameter.type_.value  # type: ignore[return-value]
 
     def get_parameter_types(self, names: list[str]) -> list[Parameter.Type]:
-        """Return the types of several parameters; see `get_parameter_type`."""
+        """Return the types of several parameters. See `get_parameter_type`."""
         return [self.get_parameter_type(name) for name in names]
 
     def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter[Any]]:
@@ -331,7 +331,7 @@ class NodeParameters:
         return descriptor
 
     def describe_parameters(self, names: list[str]) -> list[ParameterDescriptor]:
-        """Return the descriptors of several parameters; see `describe_parameter`."""
+        """Return the descriptors of several parameters. See `describe_parameter`."""
         return [self.describe_parameter(name) for name in names]
 
     def set_descriptor(self, name: str, descriptor: ParameterDescriptor, alternative_value: Any = None) -> Any:

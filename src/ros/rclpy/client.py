@@ -183,7 +183,7 @@ class Client(LoggingEntity):
 
     @property
     def _Coframe__refusal(self) -> str:
-        """Why no request can be sent although there is a server; "" if there is no reason."""
+        """Why no request can be sent although there is a server, or "" if there is no reason."""
         self.__require_replies()
         return self.__requests.refusal
 

@@ -191,7 +191,7 @@ class Clock:
             context: Context whose shutdown interrupts the sleep. None: the default context.
 
         Returns:
-            True if the time was reached; False if the context was shut down or the time source changed.
+            True if the time was reached, or False if the context was shut down or the time source changed.
 
         Raises:
             ValueError: `until` is a time of another clock type.

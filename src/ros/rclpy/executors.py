@@ -279,7 +279,7 @@ class Executor:
         nodes: Iterable[Node] | None = None,
         condition: Callable[[], bool] = lambda: False,
     ) -> Iterator[Work]:
-        """Yield the next ready callback, and those that are ready at the same time; see `wait_for_ready_callbacks`."""
+        """Yield the next ready callback, and those that are ready at the same time. See `wait_for_ready_callbacks`."""
         yield self.wait_for_ready_callbacks(timeout_sec, nodes, condition)
         with suppress(TimeoutException):
             while True:
@@ -464,7 +464,7 @@ class MultiThreadedExecutor(Executor):
         self.__failed: deque[Task[Any]] = deque()
 
     def shutdown(self, timeout_sec: float | None = None, *, wait_for_threads: bool = True) -> bool:
-        """Stop spinning and wait for the running callbacks; see `Executor.shutdown`.
+        """Stop spinning and wait for the running callbacks. See `Executor.shutdown`.
 
         Args:
             timeout_sec: Maximum time to wait for the callbacks in seconds. None: no limit.

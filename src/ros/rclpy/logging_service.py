@@ -21,7 +21,7 @@ __all__ = ["LoggingService"]
 
 
 class LoggingService:
-    """Services `~/get_logger_levels` and `~/set_logger_levels` of a node; see `enable_logger_service` of `Node`.
+    """Services `~/get_logger_levels` and `~/set_logger_levels` of a node. See `enable_logger_service` of `Node`.
 
     Args:
         node: Node that serves them.

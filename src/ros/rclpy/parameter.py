@@ -174,7 +174,7 @@ def _is_integer(value: Any) -> bool:
 
 
 def _to_python(value: Any) -> Any:
-    """Return NumPy's numbers and booleans as Python's, also in a list; any other value itself."""
+    """Return NumPy's numbers and booleans as Python's, also in a list. Any other value itself."""
     if type(value) in _PYTHON_TYPES:  # The usual case, and much faster.
         return value
     if isinstance(value, list | tuple) and any(issubclass(kind, np.generic) for kind in {*map(type, value)}):

@@ -168,7 +168,7 @@ class AsyncParameterClient:
     def load_parameter_file_atomically(
         self, parameter_file: str, use_wildcard: bool = False, callback: Callable[[Future[Any]], None] | None = None
     ) -> Future[Any]:
-        """Request that all parameters of a YAML file are set, or none; see `load_parameter_file`."""
+        """Request that all parameters of a YAML file are set, or none. See `load_parameter_file`."""
         return self.set_parameters_atomically(self.__read(parameter_file, use_wildcard=use_wildcard), callback)
 
     @staticmethod

@@ -65,8 +65,8 @@ class ServiceEvents:
         Args:
             event_type: A constant of `service_msgs/msg/ServiceEventInfo`.
             header: The header of the request.
-            request: The request; None for events of responses.
-            response: The response; None for events of requests.
+            request: The request, or None for events of responses.
+            response: The response, or None for events of requests.
         """
         publisher, clock = self._publisher, self._clock
         if publisher is None or clock is None:

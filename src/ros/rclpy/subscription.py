@@ -44,7 +44,7 @@ class MessageInfo(TypedDict):
         received_timestamp: The time at which it was received, in nanoseconds since 1970.
         publication_sequence_number: Its number among the messages of the publisher; None, as with most middlewares.
         reception_sequence_number: Its number among the received messages; None, as with most middlewares.
-        publisher_gid: The identifier of the publisher, in `data`; None if it has left.
+        publisher_gid: The identifier of the publisher, in `data`, or None if it has left.
     """
 
     source_timestamp: int
@@ -101,7 +101,7 @@ class Subscription(LoggingEntity):
         return self.__filter is not None
 
     def set_content_filter(self, filter_expression: str, expression_parameters: list[str]) -> None:
-        """Let only messages through that meet a condition; see `ContentFilterOptions`. An empty condition removes it.
+        """Let only messages through that meet a condition. See `ContentFilterOptions`. An empty condition removes it.
 
         Raises:
             RCLError: The condition is invalid.

@@ -245,7 +245,7 @@ class Timer(Destroyable):
 
 
 def _info_parameter(callback: Callable[..., Any]) -> str | None:
-    """Return the name of the parameter that is annotated with `TimerInfo`; None if there is none."""
+    """Return the name of the parameter that is annotated with `TimerInfo`, or None if there is none."""
     try:
         parameters = inspect.signature(callback).parameters.values()
     except (TypeError, ValueError):  # Some built-in functions have no signature.

@@ -131,7 +131,7 @@ def pointcloud2_to_array(cloud_msg: PointCloud2, squeeze: bool = True) -> PointA
 
 @converts_to_numpy(PointCloud2)
 def point_cloud2_to_array(msg: PointCloud2, squeeze: bool = True) -> PointArray:
-    """Return the points of a cloud; see `pointcloud2_to_array`."""
+    """Return the points of a cloud. See `pointcloud2_to_array`."""
     return pointcloud2_to_array(msg, squeeze)
 
 
@@ -234,7 +234,7 @@ def get_xyz_points(cloud_array: Array, remove_nans: bool = True, dtype: DTypeLik
 
 
 def pointcloud2_to_xyz_array(cloud_msg: PointCloud2, remove_nans: bool = True) -> Array:
-    """Return the positions of the points of a cloud, shape (N, 3), float64; see `get_xyz_points`."""
+    """Return the positions of the points of a cloud, shape (N, 3), float64. See `get_xyz_points`."""
     return get_xyz_points(pointcloud2_to_array(cloud_msg), remove_nans=remove_nans)
 
 

@@ -29,7 +29,7 @@ def converts_to_numpy(msgtype: Any, plural: bool = False) -> Callable[[Function]
 
 
 def converts_from_numpy(msgtype: Any, plural: bool = False) -> Callable[[Function], Function]:
-    """Return a decorator that registers a function for `msgify`; the arguments are those of `converts_to_numpy`."""
+    """Return a decorator that registers a function for `msgify`. The arguments are those of `converts_to_numpy`."""
 
     def register(function: Function) -> Function:
         _from_numpy[msgtype, plural] = function

@@ -10,7 +10,7 @@ __all__ = ["CompressionMode", "CompressionOptions", "compression_mode_from_strin
 
 
 class CompressionMode(Enum):
-    """The compressed units; coframe compresses the chunks of MCAP files in both modes, so that they stay readable."""
+    """The compressed units. coframe compresses the chunks of MCAP files in both modes, so that they stay readable."""
 
     NONE = 0
     FILE = 1

@@ -12,7 +12,7 @@ __all__ = ["LocalMessageDefinitionSource", "MessageDefinition"]
 
 @dataclass
 class MessageDefinition:
-    """The definition of a type; the encoding is ``ros2msg``, or ``unknown`` if there is none."""
+    """The definition of a type. The encoding is ``ros2msg``, or ``unknown`` if there is none."""
 
     topic_type: str = ""
     encoding: str = "unknown"

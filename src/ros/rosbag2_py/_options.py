@@ -31,7 +31,7 @@ class StorageOptions:
 
 @dataclass
 class ConverterOptions:
-    """Serialization formats; coframe converts none, so both must be ``cdr`` or empty."""
+    """Serialization formats. coframe converts none, so both must be ``cdr`` or empty."""
 
     input_serialization_format: str = ""
     output_serialization_format: str = ""
@@ -43,7 +43,7 @@ _FILTER_ALIASES = {"topics_regex": "regex", "topics_regex_to_exclude": "regex_to
 
 
 class StorageFilter:
-    """The topics and services to read; if none is given, all. Regular expressions must match a whole name.
+    """The topics and services to read. If none is given, all. Regular expressions must match a whole name.
 
     Positional arguments have the order of the distribution that the process follows: up to Humble `topics`,
     `topics_regex`, `topics_regex_to_exclude`, from Jazzy on the order below.

@@ -25,7 +25,7 @@ _running: weakref.WeakSet[Player] = weakref.WeakSet()
 
 
 class Player:
-    """Replays recordings, in either of upstream's two forms; errors are RuntimeError, as upstream's.
+    """Replays recordings, in either of upstream's two forms. Errors are RuntimeError, as upstream's.
 
     Until Kilted, ``Player().play(storage_options, play_options)`` returns at the end of the replay. In Lyrical,
     ``Player(storage_options, play_options)`` has methods that control the replay, and ``play()`` returns at once.
@@ -72,7 +72,7 @@ class Player:
         Args:
             storage_options: The recording.
             play_options: How it is replayed.
-            num_messages: The number of messages; 0 for all.
+            num_messages: The number of messages, or 0 for all.
         """
         with self.__start(storage_options, play_options, paused=True) as player:
             player.step(num_messages or sum(topic.messages for topic in player.recording.topics.values()))
@@ -80,7 +80,7 @@ class Player:
                 pass
 
     def start_spin(self) -> None:
-        """Open the recording; the threads of coframe run without an executor."""
+        """Open the recording. The threads of coframe run without an executor."""
         self.__opened()
 
     def stop_spin(self) -> None:
@@ -114,7 +114,7 @@ class Player:
         return self.__opened().clock.rate
 
     def set_rate(self, rate: float) -> bool:
-        """Set the rate; return False if it is not above 0 and at most 1000."""
+        """Set the rate, or False if it is not above 0 and at most 1000."""
         try:
             self.__opened().set_rate(rate)
         except ValueError:
@@ -122,7 +122,7 @@ class Player:
         return True
 
     def play_next(self) -> bool:
-        """Publish the next message of a paused replay; return False if there is none, or if it is not paused."""
+        """Publish the next message of a paused replay, or False if there is none, or if it is not paused."""
         player = self.__opened()
         if not player.clock.paused:
             return False
@@ -146,11 +146,11 @@ class Player:
         return self.__opened().recording.duration
 
     def wait_for_playback_to_start(self, timeout: float = -1.0) -> bool:
-        """Wait until the first message is published; a negative timeout means no limit."""
+        """Wait until the first message is published. A negative timeout means no limit."""
         return self.__opened().wait_for_start(_timedelta(timeout))
 
     def wait_for_playback_to_finish(self, timeout: float = -1.0) -> bool:
-        """Wait until the replay ends; a negative timeout means no limit."""
+        """Wait until the replay ends. A negative timeout means no limit."""
         return self.__opened().wait(_timedelta(timeout))
 
     wait_for_playback_to_start_exclusively = wait_for_playback_to_start

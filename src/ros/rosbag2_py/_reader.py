@@ -38,7 +38,7 @@ def check_formats(options: ConverterOptions) -> None:
 
 
 class SequentialReader:
-    """Reads messages in receive order; errors are RuntimeError, as upstream's."""
+    """Reads messages in receive order. Errors are RuntimeError, as upstream's."""
 
     def __init__(self) -> None:
         self.__opened: Recording | None = None
@@ -126,7 +126,7 @@ class SequentialReader:
         self.__begin(timestamp)
 
     def set_read_order(self, read_order: ReadOrder) -> bool:
-        """Return whether the order is supported; only the receive order is, which is the default."""
+        """Return whether the order is supported. Only the receive order is, which is the default."""
         return read_order.sort_by is ReadOrderSortBy.ReceivedTimestamp and not read_order.reverse
 
     def __recording(self) -> Recording:

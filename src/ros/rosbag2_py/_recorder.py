@@ -25,7 +25,7 @@ _running: weakref.WeakSet[Recorder] = weakref.WeakSet()
 
 
 class Recorder:
-    """Records topics, in either of upstream's two forms; errors are RuntimeError, as upstream's.
+    """Records topics, in either of upstream's two forms. Errors are RuntimeError, as upstream's.
 
     Until Kilted, ``Recorder().record(storage_options, record_options)`` records until Ctrl-C or ``cancel()``. In
     Lyrical, ``Recorder(storage_options, record_options)`` has methods that control it, and ``record()`` returns at

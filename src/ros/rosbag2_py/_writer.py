@@ -15,7 +15,7 @@ __all__ = ["SequentialCompressionWriter", "SequentialWriter"]
 
 
 class SequentialWriter:
-    """Writes messages into a new folder; errors are RuntimeError, as upstream's.
+    """Writes messages into a new folder. Errors are RuntimeError, as upstream's.
 
     As upstream's, the writer has no end: the files are complete when it is closed or deleted.
     """
@@ -43,7 +43,7 @@ class SequentialWriter:
             raise RuntimeError(str(error)) from error
 
     def create_topic(self, topic_with_type: TopicMetadata) -> None:
-        """Add a topic; a topic that already exists stays as it is."""
+        """Add a topic. A topic that already exists stays as it is."""
         if topic_with_type.name in self.__topics:
             return
         qos = topic_with_type.offered_qos_profiles

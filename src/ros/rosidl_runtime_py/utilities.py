@@ -25,7 +25,7 @@ def get_interface(identifier: str) -> Any:
 
 
 def get_message(identifier: str) -> Any:
-    """Return the class of a message; it raises the same errors as `get_interface`.
+    """Return the class of a message. It raises the same errors as `get_interface`.
 
     Raises:
         ValueError: The interface is not a message.
@@ -37,7 +37,7 @@ def get_message(identifier: str) -> Any:
 
 
 def get_service(identifier: str) -> Any:
-    """Return the class of a service; it raises the same errors as `get_interface`.
+    """Return the class of a service. It raises the same errors as `get_interface`.
 
     Raises:
         ValueError: The interface is not a service.
@@ -49,7 +49,7 @@ def get_service(identifier: str) -> Any:
 
 
 def get_action(identifier: str) -> Any:
-    """Return the class of an action; it raises the same errors as `get_interface`.
+    """Return the class of an action. It raises the same errors as `get_interface`.
 
     Raises:
         ValueError: The interface is not an action.

@@ -94,7 +94,7 @@ class TeleopTwistKeyboard(Node):
         return f"currently:\tspeed {self.__speed}\tturn {self.__turn} "
 
     def press(self, key: str) -> str:
-        """Publish the velocity of a key; return what is to be printed."""
+        """Publish the velocity of a key, and return what is to be printed."""
         factors = _SPEEDS.get(key)
         text = ""
         if factors is not None:

@@ -171,7 +171,7 @@ def _transform_to_affine(transform: TransformStamped) -> Array:
 
 
 def _get_mat_from_quat(quaternion: Array) -> Array:
-    """Return the 3x3 rotation matrix of a quaternion (w, x, y, z), which is normalized; zero becomes the identity."""
+    """Return the 3x3 rotation matrix of a quaternion (w, x, y, z), which is normalized. Zero becomes the identity."""
     squared = float(quaternion @ quaternion)
     if squared < np.finfo(np.float64).eps:
         return np.eye(3)

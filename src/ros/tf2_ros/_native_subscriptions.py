@@ -21,7 +21,7 @@ class NativeSubscriptions:
     """Readers of the node's participant, which insert transforms without Python code.
 
     Attributes:
-        dynamic: The subscription to dynamic transforms; None if there is none.
+        dynamic: The subscription to dynamic transforms, or None if there is none.
         static: The subscription to static transforms.
     """
 

@@ -58,7 +58,7 @@ class SharedSubscriptions:
 
     @classmethod
     def open(cls, request: Request) -> SharedSubscriptions | None:
-        """Share the transforms; return None if this system cannot."""
+        """Share the transforms, or None if this system cannot."""
         sharing = share(request)
         return None if sharing is None else cls(request, sharing)
 
@@ -90,7 +90,7 @@ class SharedSubscriptions:
             self._request.node.destroy_subscription(own.static)
 
     def _own_of_the_other(self) -> NativeSubscriptions | None:
-        """Return own subscriptions, of which the program destroys one; None if it destroys both, or the node."""
+        """Return own subscriptions, of which the program destroys one, or None if it destroys both, or the node."""
         if self._closed or self._request.node._Coframe__entities.is_destroyed:
             self._sharing.leave()
             return None

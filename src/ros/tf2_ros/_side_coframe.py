@@ -71,7 +71,7 @@ def wait_for(action_client: Any, future: Future[Any], timeout: float) -> None:
 
 
 def refusal(action_client: Any) -> str:
-    """Return why no goal can be sent although there is a server; "" if there is no reason."""
+    """Return why no goal can be sent although there is a server, or "" if there is no reason."""
     reason: str = action_client._Coframe__refusal
     return reason
 

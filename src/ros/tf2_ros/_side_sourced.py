@@ -129,7 +129,7 @@ def _default_wire(node: Node) -> str:
 
 
 def _native_problem() -> str | None:
-    """Return why coframe cannot receive messages from the nodes of this ROS; None if it can."""
+    """Return why coframe cannot receive messages from the nodes of this ROS, or None if it can."""
     middleware = get_rmw_implementation_identifier()
     needed = selection.row_of_rmw(middleware).wire
     if needed == "zenoh" and os.environ.get("ROS_DISTRO") == "humble":

@@ -83,7 +83,7 @@ class SourcedSharedSubscriptions:
 
     @classmethod
     def open(cls, request: Request) -> SourcedSharedSubscriptions | None:
-        """Share the transforms; return None if this system cannot."""
+        """Share the transforms, or None if this system cannot."""
         sharing = share(request)
         return None if sharing is None else cls(request, sharing)
 

@@ -44,11 +44,11 @@ class Request:
         node: The node of the subscriptions.
         buffer: The buffer to fill.
         group: The callback group of the subscriptions.
-        renaming: The renaming of frames; None for none.
+        renaming: The renaming of frames, or None for none.
         dynamic: The topic of dynamic transforms; None to subscribe only to static transforms.
         static: The topic of static transforms.
         shared: Whether the buffer may read shared transforms.
-        wire: How the transforms are received, "native" or "rclpy"; None for the value of the environment variable.
+        wire: How the transforms are received, "native" or "rclpy", or None for the value of the environment variable.
         overridden: Whether a method on the path of the transforms into the buffer is overridden.
     """
 
@@ -68,7 +68,7 @@ class Subscriptions(Protocol):
 
     @property
     def dynamic(self) -> Any:
-        """The subscription to dynamic transforms; None if there is none."""
+        """The subscription to dynamic transforms, or None if there is none."""
 
     @property
     def static(self) -> Any:
@@ -82,7 +82,7 @@ class CallbackSubscriptions:
     """Subscriptions of the node whose callbacks insert the transforms, as in tf2_ros.
 
     Attributes:
-        dynamic: The subscription to dynamic transforms; None if there is none.
+        dynamic: The subscription to dynamic transforms, or None if there is none.
         static: The subscription to static transforms.
     """
 

@@ -33,7 +33,7 @@ class Way(NamedTuple):
     opens: str
 
     def open(self, request: Request) -> Subscriptions | None:
-        """Open the subscriptions; return None if this way is not possible on this system."""
+        """Open the subscriptions, or None if this way is not possible on this system."""
         module, _, name = self.opens.partition(".")
         kind: Any = getattr(import_module(f"tf2_ros.{module}"), name)
         subscriptions: Subscriptions | None = getattr(kind, "open", kind)(request)

@@ -170,7 +170,7 @@ class MessageFilter:
             self.node.destroy_guard_condition(self._guard)
 
     def set_target_frame(self, target_frame: str) -> None:
-        """Replace the target frames by a single frame; see `set_target_frames`."""
+        """Replace the target frames by a single frame. See `set_target_frames`."""
         self.set_target_frames([target_frame])
 
     def set_target_frames(self, target_frames: str | Iterable[str]) -> None:

@@ -61,7 +61,7 @@ class StaticTransformBroadcaster:
         self._child_frame_ids: set[str] = set()
 
     def sendTransform(self, transform: TransformStamped | Iterable[TransformStamped]) -> None:
-        """Publish transforms together with all earlier ones; a new transform replaces the one with the same child."""
+        """Publish transforms together with all earlier ones. A new transform replaces the one with the same child."""
         transforms = {known.child_frame_id: known for known in self.net_message.transforms}
         # The messages are copied, because callers reuse them for their next transform.
         added = TFMessage(transforms=renamed(as_list(transform), self.__renaming)).transforms

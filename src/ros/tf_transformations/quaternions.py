@@ -45,7 +45,7 @@ def quaternion_inverse(quaternion: ArrayLike) -> Array:
 
 
 def quaternion_matrix(quaternion: ArrayLike) -> Array:
-    """Return the 4x4 rotation matrix of a quaternion, which is normalized; zero becomes the identity."""
+    """Return the 4x4 rotation matrix of a quaternion, which is normalized. Zero becomes the identity."""
     q = np.array(quaternion, dtype=np.float64)[:4]
     matrix = np.eye(4)
     squared = float(q @ q)

@@ -49,7 +49,7 @@ class TeleopTurtle(Node):
         self.__goal: Any = None
 
     def press(self, key: str) -> bool:
-        """Act on a key; return False for the key that quits."""
+        """Act on a key, and return False for the key that quits."""
         key = key.lower()
         if key in _ARROWS:
             linear, angular = _ARROWS[key]

@@ -82,7 +82,7 @@ class TurtleSim(Node):
         return response
 
     def __fault(self, request: Spawn.Request) -> str:
-        """Return why a turtle cannot be spawned; "" if it can be."""
+        """Return why a turtle cannot be spawned, or "" if it can be."""
         if request.name in self.__turtles:
             return f"A turtle named [{display_name(request.name)}] already exists"
         if len(self.__turtles) >= MAX_TURTLES:

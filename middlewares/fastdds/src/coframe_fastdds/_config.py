@@ -34,8 +34,8 @@ class Config(NamedTuple):
     Attributes:
         range: "OFF", "LOCALHOST", "SUBNET" or "SYSTEM_DEFAULT".
         peers: The hosts in ROS_STATIC_PEERS.
-        server: The discovery servers, which Fast DDS itself reads; "" if there are none.
-        profiles: The XML file of the user; "" if there is none.
+        server: The discovery servers, which Fast DDS itself reads, or "" if there are none.
+        profiles: The XML file of the user, or "" if there is none.
         qos_from_profiles: Whether endpoints use the profile with the name of their topic.
         asynchronous: Whether publishers send on a thread of Fast DDS.
         enclave: The name of the participant's enclave.

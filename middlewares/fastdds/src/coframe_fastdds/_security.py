@@ -40,7 +40,7 @@ _warn_once = WarnOnce(logging.getLogger("coframe.wire").warning)
 
 
 def read(environment: Mapping[str, str]) -> tuple[str, tuple[tuple[str, str], ...]]:
-    """Return the enclave of this process, and the properties of its participants; none without security.
+    """Return the enclave of this process, and the properties of its participants, or none without security.
 
     Raises:
         WireError: A variable has an invalid value, or security is enforced and files of the enclave are missing.

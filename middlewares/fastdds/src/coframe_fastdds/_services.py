@@ -81,7 +81,7 @@ class Clients:
             return number
 
     def find(self, number: int) -> _Client | None:
-        """Return a client; None if it is unknown."""
+        """Return a client, or None if it is unknown."""
         with self._lock:
             return self._known.get(number)
 
@@ -113,7 +113,7 @@ class Pending:
                 self._headers.popitem(last=False)
 
     def find(self, guid: bytes, sequence: int) -> RequestHeader | None:
-        """Return the header of the request that a reply answers; None if this process has not sent it."""
+        """Return the header of the request that a reply answers, or None if this process has not sent it."""
         with self._lock:
             return self._headers.get((guid, sequence))
 
@@ -200,7 +200,7 @@ class ReplyReader(_ServiceReader):
         super().__init__(*arguments)
 
     def _read(self, data: bytes, guid: bytes, sequence: int, related: bytes, related_sequence: int) -> bytes | None:
-        """Return a reply with the header of its request; None if it answers no request of this process."""
+        """Return a reply with the header of its request, or None if it answers no request of this process."""
         del sequence
         if vendors.uses_request_header(guid):
             return data
@@ -266,7 +266,7 @@ class _TwoForms:
 
     @property
     def refused_policy(self) -> int:
-        """The DDS number of the QoS policy that made the last match fail; 0 if no match failed."""
+        """The DDS number of the QoS policy that made the last match fail, or 0 if no match failed."""
         return self._plain.refused_policy
 
     def take_status(self, kind: int) -> tuple[int, int, int, int] | None:

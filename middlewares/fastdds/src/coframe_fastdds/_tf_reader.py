@@ -31,7 +31,7 @@ class FastDdsTfReader(native.TfReader):
 
     @property
     def stored_at(self) -> int:
-        """When the transforms of the newest message were stored, in nanoseconds of the steady clock; 0 if never."""
+        """When the transforms of the newest message were stored, in nanoseconds of the steady clock, or 0 if never."""
         return self._store.stored_at
 
     @property

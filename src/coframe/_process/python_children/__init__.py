@@ -35,7 +35,7 @@ def child_environment(base: Mapping[str, str] | None = None) -> dict[str, str]:
     """Return the environment for a child process, with the variables set by `pass_to_children`.
 
     Args:
-        base: The base environment; None for the environment of this process. A variable that was changed in it, for
+        base: The base environment, or None for the environment of this process. A variable that was changed in it, for
         example
             by a launch file, keeps its value.
     """
@@ -65,7 +65,7 @@ def python_environment(base: Mapping[str, str] | None = None) -> dict[str, str]:
     Relative elements become absolute, so that they refer to the same folders in every process.
 
     Args:
-        base: The base environment; None for the environment of this process.
+        base: The base environment, or None for the environment of this process.
     """
     environment = child_environment(base)
     for name in _OMITTED_VARIABLES:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run the module in the first argument; the script behind `python_command`.
+"""Run the module in the first argument. This is the script behind `python_command`.
 
 Python puts the folder of this file first on `sys.path`; it contains nothing that a program imports, and is removed.
 """

@@ -73,7 +73,7 @@ def verdict_text(found: Explanation) -> str:
 
 
 def edge_remark(found: Explanation, edge: ChainEdge) -> str:
-    """Return what is wrong or unusual about an edge, and by how much; "" if nothing is."""
+    """Return what is wrong or unusual about an edge, and by how much, or "" if nothing is."""
     return _anomaly_text(found, edge) if edge.state == "ok" else _fault_text(found, edge)
 
 

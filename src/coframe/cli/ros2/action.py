@@ -189,7 +189,7 @@ def _follow_goal(node: Node, client: Any, goal: Any, shown: str, deadline: Deadl
 
 
 def _await_result(node: Node, result: Any, deadline: Deadline) -> Any:
-    """Return the result of a goal, which may take long; None after the deadline."""
+    """Return the result of a goal, which may take long, or None after the deadline."""
     import rclpy  # noqa: PLC0415 - slow import
 
     while not (result.done() or deadline.has_passed):
@@ -201,7 +201,7 @@ def _await_result(node: Node, result: Any, deadline: Deadline) -> Any:
 @action_argument
 @spin_time_option(NO_WAIT)
 def type_(action_name: str, spin_time: NonNegativeDuration) -> None:
-    """Print the type of an action; the exit code is 1 if the action is unknown.
+    """Print the type of an action. The exit code is 1 if the action is unknown.
 
     Example: coframe action type /fibonacci
     """

@@ -76,7 +76,7 @@ def fail_if_incompatible(client: Any) -> None:
 def wait_for_server(
     client: Any, wait: Callable[[float], bool], name: str, deadline: Deadline, hint: Callable[[], str]
 ) -> None:
-    """Wait for a server; print once that there is none yet.
+    """Wait for a server, and print once that there is none yet.
 
     End the command after the deadline, and if the middleware of all servers would misread requests.
 
@@ -98,7 +98,7 @@ def wait_for_server(
 
 
 def await_response(node: Node, future: Any, name: str, deadline: Deadline) -> Any:
-    """Return the response of a server; print once that there is none yet, and end the command after the deadline.
+    """Return the response of a server, print once that there is none yet, or end the command after the deadline.
 
     Args:
         node: Node of the command.
@@ -124,7 +124,7 @@ def await_response(node: Node, future: Any, name: str, deadline: Deadline) -> An
 def call_service(
     node: Node, service_class: Any, name: str, request: Any, *, timeout: PositiveDuration | None = None
 ) -> Any:
-    """Call a service and return its response; end the command if there is none.
+    """Call a service and return its response, and end the command if there is none.
 
     Args:
         node: Node of the command.

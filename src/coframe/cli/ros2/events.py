@@ -93,7 +93,7 @@ def echo_action(
 
 
 def _type(names_and_types: Any, name: str, what: str) -> str:
-    """Return the type of a service or an action in the graph; end the command if it is unknown or not unique."""
+    """Return the type of a service or an action in the graph, or end the command if it is unknown or not unique."""
     found = wait_until(lambda: dict(names_and_types()).get(name))
     if not found:
         fail(f"Could not determine the type for the passed {what}", f"coframe {what} list shows all {what}s.")

@@ -195,7 +195,7 @@ def split_node_name(name: str) -> tuple[str, str]:
 
 
 def topic_type(node: Node, topic: str, *, include_hidden: bool = True, wait: bool = False) -> str:
-    """Return the type of a topic in the graph; end the command if there is none or if there are several.
+    """Return the type of a topic in the graph, or end the command if there is none or if there are several.
 
     The messages are those of ros2cli.
 
@@ -239,7 +239,7 @@ def _check_name(node: Node, topic: str) -> None:
 
 
 def load_type(kind: str, load: Callable[[str], Any]) -> Any:
-    """Return the class of a ROS type; end the command with an error message if there is none.
+    """Return the class of a ROS type, or end the command with an error message if there is none.
 
     Args:
         kind: Name of the type, e.g. "std_msgs/msg/String".

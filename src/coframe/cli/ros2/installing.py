@@ -82,7 +82,7 @@ def _folder() -> Path:
 
 
 def _script(name: str) -> str:
-    """Return the text of an executable; the path of Python may contain spaces and may be long."""
+    """Return the text of an executable. The path of Python may contain spaces and may be long."""
     words = python_command("coframe.workspace.entry_point", f"coframe.cli.ros2.executable:{name}")
     command = " ".join(f'"{word}"' for word in words)
     return f"@{command} %*\n" if os.name == "nt" else f'#!/bin/sh\nexec {command} "$@"\n'

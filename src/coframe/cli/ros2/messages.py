@@ -65,7 +65,7 @@ class MessageStream:
         report_lost: bool = False,
         label: str | None = None,
     ) -> None:
-        """Add a subscription; its messages have a label, the name of the topic by default."""
+        """Add a subscription. Its messages have a label, the name of the topic by default."""
         name = label or topic
         self._node.create_subscription(
             message_class,
@@ -77,7 +77,7 @@ class MessageStream:
         )
 
     def take_labeled(self, seconds: float) -> tuple[str, Any] | None:
-        """Return the label of the next message and the message; None after the timeout."""
+        """Return the label of the next message and the message, or None after the timeout."""
         deadline = time.monotonic() + seconds
         while not self._arrived_messages:
             left = deadline - time.monotonic()

@@ -34,7 +34,7 @@ class NewPackage(NamedTuple):
 
 
 def write_package(package: NewPackage, destination: Path) -> list[Path]:
-    """Write the files of a package to a new folder; end the command if that fails.
+    """Write the files of a package to a new folder, and end the command if that fails.
 
     Returns:
         The files, in the order in which they were written.
@@ -63,7 +63,7 @@ def write_package(package: NewPackage, destination: Path) -> list[Path]:
 
 
 def _files(package: NewPackage) -> dict[str, str]:
-    """Return the texts of the files by name; a name that ends with a slash is an empty folder."""
+    """Return the texts of the files by name. A name that ends with a slash is an empty folder."""
     name = package.name
     if package.build_type == "ament_cmake":
         return {

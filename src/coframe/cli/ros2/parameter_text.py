@@ -29,7 +29,7 @@ TYPE_NAMES = {0: "not set", **{number: name for number, (name, _, _) in _TYPES.i
 
 
 def python_value(value: Any) -> Any:
-    """Return a `ParameterValue` as a Python value; None if it is not set."""
+    """Return a `ParameterValue` as a Python value, or None if it is not set."""
     if value.type not in _TYPES:
         return None
     plain = getattr(value, _TYPES[value.type][1])
@@ -39,7 +39,7 @@ def python_value(value: Any) -> Any:
 
 
 def value_line(value: Any, *, hide_type: bool) -> str | None:
-    """Return the line of ``ros2 param get``; None if the parameter is not set."""
+    """Return the line of ``ros2 param get``, or None if the parameter is not set."""
     if value.type not in _TYPES:
         return None
     plain = python_value(value)
@@ -89,7 +89,7 @@ def as_yaml_file(node_name: str, values: Mapping[str, Any]) -> str:
 
 
 def parameters_of_file(file: Path, node_name: str, *, use_wildcard: bool) -> dict[str, Any]:
-    """Return a node's parameters from a YAML file; end the command if there are none.
+    """Return a node's parameters from a YAML file, or end the command if there are none.
 
     Args:
         file: File in the format of --params-file.

@@ -192,7 +192,7 @@ def xml(package_name: str, tag: str | None) -> None:
 
 
 def _built_in(name: str) -> bytes:
-    """Return a manifest for a ROS package that coframe provides; those have no file."""
+    """Return a manifest for a ROS package that coframe provides, which has no file."""
     return (
         '<?xml version="1.0"?>\n'
         '<package format="3">\n'

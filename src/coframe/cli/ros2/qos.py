@@ -94,7 +94,7 @@ class QoSWords(NamedTuple):
 
 
 def _do_all_offer(policy: str, value: str, offers: list[bool]) -> bool:
-    """Return whether all publishers offer the stronger policy; print a message on stderr if only some do."""
+    """Return whether all publishers offer the stronger policy, and print a message on stderr if only some do."""
     if any(offers) and not all(offers):
         print(
             f"Some, but not all, publishers are offering {policy} {value}. Falling back to the weaker policy, "
@@ -105,7 +105,7 @@ def _do_all_offer(policy: str, value: str, offers: list[bool]) -> bool:
 
 
 def _policy(kind: Any, option: str, word: str | None) -> Any:
-    """Return a policy by its short name, None if there is none; end the command at an unknown name."""
+    """Return a policy by its short name, None if there is none, or end the command at an unknown name."""
     if word is None:
         return None
     if word.lower() not in kind.short_keys():

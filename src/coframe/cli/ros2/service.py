@@ -182,7 +182,7 @@ def list_services(
 @service_argument
 @spin_time_option(NO_WAIT)
 def type_(service_name: str, spin_time: NonNegativeDuration) -> None:
-    """Print the type of a service; the exit code is 1 if the service is unknown.
+    """Print the type of a service. The exit code is 1 if the service is unknown.
 
     Example: coframe service type /reset
     """

@@ -21,7 +21,7 @@ class TextFormat(NamedTuple):
 
     Attributes:
         csv: Whether a message is one line of comma-separated values, instead of YAML.
-        truncate_length: Maximum number of elements of an array and of characters of a string; None for all.
+        truncate_length: Maximum number of elements of an array and of characters of a string, or None for all.
         no_arr: Whether the types of arrays are printed instead of their elements.
         no_str: Whether the lengths of strings are printed instead of the strings.
         flow_style: Whether collections are printed on one line.

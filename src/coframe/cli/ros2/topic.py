@@ -131,7 +131,7 @@ topic.add_command(pub)
 @topic_argument
 @spin_time_option(NO_WAIT)
 def type_(topic_name: str, spin_time: NonNegativeDuration) -> None:
-    """Print the type of a topic; the exit code is 1 if the topic is unknown.
+    """Print the type of a topic. The exit code is 1 if the topic is unknown.
 
     Example: coframe topic type /tf
     """

@@ -194,7 +194,7 @@ def _stream(node: Node, names: tuple[str, ...], *, raw: bool) -> tuple[MessageSt
 
 
 def _published_topics(node: Node) -> list[str]:
-    """Return the topics of the graph; end the command if there are none."""
+    """Return the topics of the graph, or end the command if there are none."""
     topics: list[str] = wait_until(
         lambda: sorted(name for name, _ in node.get_topic_names_and_types() if not is_hidden(name))
     )

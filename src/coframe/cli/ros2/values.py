@@ -36,7 +36,7 @@ _REASONS = {
 
 
 def yaml_value(text: str, what: str, hint: str = "") -> Any:
-    """Return the value of a YAML text; end the command if it is not valid YAML.
+    """Return the value of a YAML text, or end the command if it is not valid YAML.
 
     Args:
         text: The YAML text, as given on the command line.
@@ -123,7 +123,7 @@ def _example(message: Any) -> str:
 
 
 def _example_value(value: Any) -> str:
-    """Return a value as YAML; "" for arrays, which an example can omit."""
+    """Return a value as YAML, or "" for arrays, which an example can omit."""
     if hasattr(value, "get_fields_and_field_types"):
         return _example(value)
     if isinstance(value, str):

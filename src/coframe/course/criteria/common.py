@@ -102,7 +102,7 @@ def run_program(task: Task, sheet: Sheet, *, wrong_topic: str = "") -> Iterator[
 
 
 def _silence_reason(file: str, world: World, wrong_topic: str) -> str:
-    """Return a message about a program that publishes nothing; "" if it has a publisher on a wrong topic."""
+    """Return a message about a program that publishes nothing, or "" if it has a publisher on a wrong topic."""
     topics = [topic for topic in world.watched_topics() if world.publishers_of(topic)]
     if wrong_topic in topics:
         return ""
@@ -138,7 +138,7 @@ def expanded_xacro(task: Task, file: Path) -> tuple[str, str]:
 
 
 def _file_problem(folder: Path, name: str) -> str:
-    """Return why a program cannot be started; "" if it can."""
+    """Return why a program cannot be started, or "" if it can."""
     if not is_submitted(folder, name):
         return f"There is no file {name}."
     try:
@@ -190,7 +190,7 @@ def read_pose(message: Any) -> Transform:
 
 
 def difference_text(pose: Transform, correct: Transform, tolerance: float = TOLERANCE) -> str:
-    """Return how a pose differs from the correct one; "" if it is within the tolerance.
+    """Return how a pose differs from the correct one, or "" if it is within the tolerance.
 
     The quaternions q and -q are the same rotation.
     """
@@ -204,7 +204,7 @@ def difference_text(pose: Transform, correct: Transform, tolerance: float = TOLE
 
 
 def mean_rate(received: list[Received]) -> float:
-    """Return the mean rate of messages in Hz; 0 if there are fewer than two.
+    """Return the mean rate of messages in Hz, or 0 if there are fewer than two.
 
     Messages that arrive at the same time, such as one for each edge, count once.
     """

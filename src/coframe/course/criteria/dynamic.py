@@ -108,7 +108,7 @@ def _check_dimensions(sheet: Sheet, task: Task, received: list[Received]) -> Non
 
 
 def _check_motion_law(sheet: Sheet, received: list[Received]) -> None:
-    """Check the joint angles at their stamps; the motion may start at any time."""
+    """Check the joint angles at their stamps. The motion may start at any time."""
     good = [_follows_law(received, index) for index in (0, 1)]
     together = _common_start(received) if all(good) else False
     for index, child in enumerate(("link1", "link2")):

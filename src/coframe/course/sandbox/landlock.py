@@ -31,7 +31,7 @@ _FIRST_WITH_SCOPES = 6
 
 
 def landlock_version() -> int:
-    """Return the Landlock version of the kernel; 0 if it is not supported."""
+    """Return the Landlock version of the kernel, or 0 if it is not supported."""
     if not sys.platform.startswith("linux"):
         return 0
     try:
@@ -95,7 +95,7 @@ def _allow_reading(ruleset: int, path: str, hidden: frozenset[str], above_hidden
 
 
 def _allow(ruleset: int, path: str, rights: int) -> None:
-    """Grant rights on a file, or on everything below a folder; do nothing if it does not exist."""
+    """Grant rights on a file, or on everything below a folder. Do nothing if it does not exist."""
     with suppress(OSError):
         file = os.open(path, os.O_PATH | os.O_CLOEXEC)
         try:

@@ -34,7 +34,7 @@ def enter_own_root(
     decoys: Mapping[str, str],
     home: str,
 ) -> None:
-    """Create a root folder and enter it; this process must have its own mount and process namespaces.
+    """Create a root folder and enter it. This process must have its own mount and process namespaces.
 
     Args:
         root: An empty folder.

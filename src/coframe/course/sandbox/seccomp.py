@@ -158,7 +158,7 @@ def can_filter() -> bool:
 
 
 def block_system_calls(protected: Iterable[int] = ()) -> None:
-    """Install the filter for this process and its children; it must already have set no_new_privs.
+    """Install the filter for this process and its children. It must already have set no_new_privs.
 
     Args:
         protected: Processes that cannot be sent signals.

@@ -26,7 +26,7 @@ def choose_user(candidates: Iterable[User], readable: Iterable[str], searchable:
         searchable: A folder that the user must be able to traverse.
 
     Returns:
-        The user; None if there is none, or if this process does not run as root and therefore cannot switch users.
+        The user, or None if there is none, or if this process does not run as root and therefore cannot switch users.
     """
     readable = list(readable)
     if os.getuid() != _SUPERUSER:

@@ -66,7 +66,7 @@ def find(observation: Observation) -> Iterator[Finding]:
 
 
 def _nodes(sensor: Sensor, nodes: tuple[str, ...]) -> NDArray[np.int64]:
-    """Return the number of the node of each message; messages of unknown nodes have that of the message before."""
+    """Return the number of the node of each message. Messages of unknown nodes have that of the message before."""
     numbers = np.array([nodes.index(node) for node in sensor.publishers], dtype=np.int64)
     known = np.maximum.accumulate(np.where(sensor.source < 0, 0, np.arange(len(sensor.source))))
     return numbers[np.maximum(sensor.source[known], 0)]
@@ -80,12 +80,12 @@ def _do_alternate(sensors: list[Sensor], sources: list[NDArray[np.int64]]) -> bo
 
 
 def _distance(positions: ObservedPositions) -> float:
-    """Return how far apart two tracks are between which the positions jump; 0 if they are one track."""
+    """Return how far apart two tracks are between which the positions jump, or 0 if they are one track."""
     return max((_track_distance(part) for part in positions.parts if len(part) >= _MIN_TRACKED), default=0.0)
 
 
 def _track_distance(points: NDArray[np.float64]) -> float:
-    """Return how far apart two tracks are between which successive positions jump; 0 if they are one track."""
+    """Return how far apart two tracks are between which successive positions jump, or 0 if they are one track."""
     farthest = int(np.argmax(np.linalg.norm(points[: _MIN_TRACKED // 2] - points[0], axis=1)))
     ends = [points[0], points[farthest]]
     steps: tuple[list[float], list[float]] = [], []

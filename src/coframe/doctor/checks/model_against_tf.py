@@ -218,7 +218,7 @@ def _numbers(values: NDArray[np.float64], digits: int) -> list[str]:
 
 
 def _difference(observation: Observation, robot: Robot, name: str, edge: Edge) -> _Difference | None:
-    """Return the median difference between an edge and its joint; None if nothing can be compared."""
+    """Return the median difference between an edge and its joint, or None if nothing can be compared."""
     joint = robot.joints[name]
     if joint.type == "fixed":
         return _deviation(edge, np.array([edge.count - 1]), robot.joint_transforms()[name])

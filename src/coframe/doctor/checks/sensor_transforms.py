@@ -104,7 +104,7 @@ def _same_name_advice(observation: Observation, frame: str, similar: str) -> str
 
 
 def _missing_frame_advice(observation: Observation, frame: str, publishers: tuple[str, ...]) -> str:
-    """Return advice about a frame that no transform contains; only sensors can be mounted statically."""
+    """Return advice about a frame that no transform contains. Only sensors can be mounted statically."""
     prefix, slash, name = frame.rpartition("/")
     root = next(iter(observation.trees))
     known = [f"{prefix}{slash}{usual}" for usual in ("map", "odom", *BASE_FRAMES)]

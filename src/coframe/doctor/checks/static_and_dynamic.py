@@ -44,7 +44,7 @@ def find(observation: Observation) -> Iterator[Finding]:
 
 
 def _cause(static: Edge, dynamic: Edge) -> str:
-    """Return a clause with the mistake that explains the difference of the two last poses; "" if there is none."""
+    """Return a clause with the mistake that explains the difference of the two last poses, or "" if there is none."""
     explained = explain_mutual_difference(static.last_pose, dynamic.last_pose)
     if explained is None:
         return ""

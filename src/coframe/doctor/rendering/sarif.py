@@ -27,7 +27,7 @@ def as_sarif(reports: dict[str, Report], recording: Readable | None) -> dict[str
 
     Args:
         reports: The reports by namespace.
-        recording: The path of the examined recording; None for a running system.
+        recording: The path of the examined recording, or None for a running system.
     """
     rules = [
         {

@@ -73,7 +73,7 @@ class CurvesFeed(_PanelFeed):
         return encode(CurveStatus(type="curve", id=number, state=state, text=text, hint=hint, axis=axis, points=points))
 
     def _new_points(self, number: int, one: ShownCurve) -> CurvePoints | None:
-        """Return the points that the client does not have; None if there are none."""
+        """Return the points that the client does not have, or None if there are none."""
         curve, span = one.curve, self._panels.span
         is_recorded = self._client.viewer.source.recording is not None
         reset = one.version != curve.version or (is_recorded and one.span != span)

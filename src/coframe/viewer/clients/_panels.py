@@ -26,7 +26,7 @@ class ShownCurve:
     Attributes:
         expression: The expression as the client wrote it.
         curve: The points of the curve, which all clients share.
-        version: The version of the curve whose points were sent; None before the first ones.
+        version: The version of the curve whose points were sent, or None before the first ones.
         seen: The number of points that were sent since that version.
         span: The part of a recording that was sent.
     """
@@ -47,14 +47,14 @@ class ClientPanels:
 
     Attributes:
         curves: The curves by the client's id.
-        span: The part of a recording that the page shows; None before the first curve.
-        topic: The inspected topic; "" for none.
-        inspected: Its messages; None if it does not exist.
+        span: The part of a recording that the page shows, or None before the first curve.
+        topic: The inspected topic, or "" for none.
+        inspected: Its messages, or None if it does not exist.
         problem: Why it could not be opened, or "".
         shows_log: Whether the log is shown.
         shows_graph: Whether the graph is shown.
         serial: A number that changes with the inspected topic.
-        log_seen: The number of log messages that were sent; None before the first ones.
+        log_seen: The number of log messages that were sent, or None before the first ones.
     """
 
     def __init__(self, viewer: ViewerState) -> None:
@@ -89,7 +89,7 @@ class ClientPanels:
                 self.curves[number] = ShownCurve(expression, self._panels.curves.open(expression))
 
     def inspect(self, topic: str) -> None:
-        """Inspect a topic instead of the previous one; "" for none."""
+        """Inspect a topic instead of the previous one, or "" for none."""
         if self.inspected is not None:
             self._viewer.release(self.topic)
         self.topic, self.inspected, self.problem = topic, None, ""
@@ -123,7 +123,7 @@ class ClientPanels:
                 self._panels.graph.release()
 
     def close(self) -> None:
-        """Show nothing; the page requests its panels again after each `hello`."""
+        """Show nothing. The page requests its panels again after each `hello`."""
         for shown in self.curves.values():
             self._panels.curves.release(shown.expression, shown.curve)
         self.curves.clear()

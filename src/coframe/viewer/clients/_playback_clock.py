@@ -19,7 +19,7 @@ class PlaybackClock:
         live: Whether the newest data is shown.
         playing: Whether the time advances.
         speed: The speed relative to real time.
-        loop: The span that is repeated; None if playback continues to the end.
+        loop: The span that is repeated, or None if playback continues to the end.
     """
 
     live: bool = True

@@ -34,7 +34,7 @@ T = TypeVar("T")
 
 
 async def handle(client: ClientState, request: ClientMessage) -> ServerMessage | None:
-    """Execute a request; return the answer, or None if the request has none.
+    """Execute a request, and return the answer, or None if the request has none.
 
     Raises:
         BadRequestError: The request cannot be fulfilled.

@@ -47,7 +47,7 @@ class SentRecords:
         self._sent: dict[int, _Sent] = {}
 
     def version(self, record: Record) -> _Sent | None:
-        """Return the version of a record that the client has; None if it does not have the record."""
+        """Return the version of a record that the client has, or None if it does not have the record."""
         return self._sent.get(record.id)
 
     def add(self, record: Record, geometry_version: int = 0) -> None:

@@ -58,7 +58,7 @@ class ClientState:
         clock: The displayed time.
         frame_timeout: The number of seconds for which a frame stays visible after its last sample.
         rviz: The configuration that the client has loaded.
-        requested_rate: The requested number of frame updates per second; None for the default.
+        requested_rate: The requested number of frame updates per second, or None for the default.
         requested_fixed: The requested fixed frame; "" selects the root of the largest tree.
         origin: The origin of the client's times, in nanoseconds.
         subscriptions: The subscribed displays by the client's id.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Updates, and the interface of the feeds that yield them; see :mod:`coframe.viewer.clients._feeds`."""
+"""Updates, and the interface of the feeds that yield them. See :mod:`coframe.viewer.clients._feeds`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Update(NamedTuple):
     """The newest message about one subject.
 
     Attributes:
-        key: The subject; None for a message that is sent in any case.
+        key: The subject, or None for a message that is sent in any case.
         version: A value that changes with the message.
         encode: Return the message.
     """

@@ -50,7 +50,7 @@ NO_NUMBERS = np.zeros(0, np.float32)
 
 
 class CannotDrawError(CoframeError, ValueError):
-    """A message cannot be drawn; the error message gives the reason."""
+    """A message cannot be drawn. The error message gives the reason."""
 
 
 @dataclass(eq=False)

@@ -35,9 +35,9 @@ class _Details:
     """The properties of all options.
 
     Attributes:
-        label: The label on the page; "" for the key.
+        label: The label on the page, or "" for the key.
         needs: The key of a flag without which the option has no effect.
-        sets: The field of `DisplayOptions` that the option sets; "" if only the page uses it.
+        sets: The field of `DisplayOptions` that the option sets, or "" if only the page uses it.
     """
 
     label: str = ""
@@ -55,7 +55,7 @@ class NumberOption(_Details):
         minimum: The smallest value; smaller ones are set to it.
         maximum: The largest value; larger ones are set to it.
         step: The difference by which the page's buttons change the value.
-        unit: The unit; "" if there is none.
+        unit: The unit, or "" if there is none.
     """
 
     key: str
@@ -148,7 +148,7 @@ class DisplayRow:
         options: Its options, in the order in which the page lists them.
         shapes: The descriptions that its drawings contain, as TypedDicts; the page's types are generated from them.
         selectable: Whether it is offered for topics of its message types. Other displays come only from .rviz files.
-        automatic: Whether the page shows such topics automatically; False if that needs much bandwidth.
+        automatic: Whether the page shows such topics automatically, or False if that needs much bandwidth.
         large_in_replay: Whether a replay records it last, in the remaining space.
         has_surfaces: Whether the page's tools find points on it.
         projected: Whether its lines and meshes can be drawn above images.

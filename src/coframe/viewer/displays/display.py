@@ -71,7 +71,7 @@ class _Entry:
         self._fixed: str | None = None  # The fixed frame of the pose.
 
     def place(self, buffer: Buffer, fixed: str, at: int) -> bool:
-        """Look up the pose unless it is already known; return whether it is known."""
+        """Look up the pose unless it is already known, and return whether it is known."""
         drawing = self.drawing
         if self._fixed == fixed and self.pose is not None and not drawing.locked:
             return True
@@ -108,7 +108,7 @@ class _Layer(NamedTuple):
     entries: list[_Entry]
 
     def place(self, buffer: Buffer, fixed: str, at: int) -> TransformException | None:
-        """Look up the poses of all drawings; return the first error."""
+        """Look up the poses of all drawings, and return the first error."""
         missing = [entry.error for entry in self.entries if not entry.place(buffer, fixed, at)]
         return missing[0] if missing else None
 
@@ -201,7 +201,7 @@ class Display:
             self._work = self._executor.submit(_render, self._renderer, message, now)
 
     def _find_and_render(self, at: int, now: int) -> _Rendered | None:
-        """Find the message outside the server's thread, because this is slow; return None if nothing changed."""
+        """Find the message outside the server's thread, because this is slow, or None if nothing changed."""
         message = self.messages.at(at)
         if message is None or not self._has_changed(message, now):
             return None

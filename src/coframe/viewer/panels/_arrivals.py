@@ -71,7 +71,7 @@ class Arrivals:
         topic: The name of the topic.
 
     Attributes:
-        problem: Why there is no subscription; None if there is one.
+        problem: Why there is no subscription, or None if there is one.
     """
 
     def __init__(self, connection: Connection, topic: str) -> None:

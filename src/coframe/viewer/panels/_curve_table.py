@@ -28,7 +28,7 @@ class CurveTable:
         self._curves = curves
 
     def as_csv(self) -> str:
-        """Return one row per stamp in nanoseconds, with one column per curve; a cell without a value is empty."""
+        """Return one row per stamp in nanoseconds, with one column per curve. A cell without a value is empty."""
         stamps = np.unique(np.concatenate([each.times for each in self._curves.values()]))
         values = np.full((len(stamps), len(self._curves)), np.nan)
         for column, each in enumerate(self._curves.values()):

@@ -154,7 +154,7 @@ class TopicCurve(LiveCurve):
 
     @property
     def status(self) -> CurveState:
-        """The status; the error of a message remains until another message has a value."""
+        """The status. The error of a message remains until another message has a value."""
         return self._error or super().status
 
     def poll(self) -> None:

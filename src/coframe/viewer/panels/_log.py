@@ -65,7 +65,7 @@ class Log:
         self._own = own
 
     def open(self) -> None:
-        """Receive messages; call `release` at the end."""
+        """Receive messages. Call `release` at the end."""
         self._users += 1
         if self._users > 1:
             return
@@ -169,7 +169,7 @@ class Log:
 
 
 def _decode_line(data: bytes) -> LogLine | None:
-    """Return the line of a message; None if its bytes are damaged."""
+    """Return the line of a message, or None if its bytes are damaged."""
     try:
         return _line(deserialize(data, find(_TYPE)), time.time_ns())
     except DecodeError:

@@ -58,7 +58,7 @@ class NodeGraphWatcher:
         self.version = 0
 
     def open(self) -> None:
-        """Watch the graph; call `release` at the end."""
+        """Watch the graph. Call `release` at the end."""
         self._users += 1
         if self._users == 1 and self._source.connection is not None:
             self._source.connection.participant.watch_graph(self._changed)
@@ -130,7 +130,7 @@ def describe_graph(connection: Connection) -> NodeGraph:
 
 
 def _problem(endpoint: DiscoveredEndpoint, others: Endpoints, *, publishes: bool, qos_must_match: bool) -> str:
-    """Return why an endpoint does not match one on the other side; "" if it matches all."""
+    """Return why an endpoint does not match one on the other side, or "" if it matches all."""
     for other, info in others:
         writer, reader = (endpoint, other) if publishes else (other, endpoint)
         reasons = mismatch_reasons(writer, reader, qos_must_match=qos_must_match)

@@ -54,7 +54,7 @@ class Ring:
 
     @property
     def last(self) -> int | None:
-        """The time of the last point; None if there is none."""
+        """The time of the last point, or None if there is none."""
         return int(self._times[self._end - 1]) if self._end else None
 
     def clear(self) -> None:

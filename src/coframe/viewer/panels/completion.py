@@ -66,7 +66,7 @@ def _complete_topic_expression(source: ViewerSource, text: str) -> list[str]:
 
 
 def _example(source: ViewerSource, topic: str, ros_type: str) -> Any:
-    """Return a message of the type of a topic; None if the type is unknown."""
+    """Return a message of the type of a topic, or None if the type is unknown."""
     try:
         recording = source.recording
         message = find(ros_type)() if recording is None else next(recording.messages(topic)).message

@@ -47,8 +47,8 @@ class CurveSpan(NamedTuple):
     """The part of a curve that a page shows.
 
     Attributes:
-        first: The first time in nanoseconds; None for all.
-        last: The last time in nanoseconds; None for all.
+        first: The first time in nanoseconds, or None for all.
+        last: The last time in nanoseconds, or None for all.
         points: The maximum number of points that the page shows.
     """
 

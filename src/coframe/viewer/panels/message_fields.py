@@ -129,7 +129,7 @@ def _types(message: Any) -> dict[str, str]:
 
 
 def _element_type(type_: str) -> str:
-    """Return the type of the elements of ``sequence<T>``, ``sequence<T, N>`` or ``T[N]``; "" if it is unknown."""
+    """Return the type of the elements of ``sequence<T>``, ``sequence<T, N>`` or ``T[N]``, or "" if it is unknown."""
     if type_.startswith("sequence<"):
         return type_.removeprefix("sequence<").removesuffix(">").partition(",")[0].strip()
     return type_.partition("[")[0] if "[" in type_ else ""

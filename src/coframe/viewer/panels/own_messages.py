@@ -22,7 +22,7 @@ _OWN_LOGGERS = ("coframe.viewer", "coframe.wire")
 
 
 class LogLine(NamedTuple):
-    """A log message; the stamp is in nanoseconds."""
+    """A log message. The stamp is in nanoseconds."""
 
     stamp: int
     level: LogLevel
@@ -41,7 +41,7 @@ class OwnMessages(logging.Filter):
             logging.getLogger(name).addFilter(self)
 
     def filter(self, record: logging.LogRecord) -> bool:
-        """Store a record; see logging.Filter."""
+        """Store a record. See logging.Filter."""
         level = LEVELS.get(record.levelno // 10 * 10, "info")
         text = record.getMessage()
         if record.exc_info and record.exc_info[1] is not None:

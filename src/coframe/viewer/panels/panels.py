@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Panel data for one source that all clients share; each part is created on demand."""
+"""Panel data for one source that all clients share. Each part is created on demand."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ R = TypeVar("R", bound=tuple[Any, ...])
 
 
 class BinaryField(NamedTuple):
-    """A field of a binary record: its letter in the struct module, and how many values it has; None for a scalar."""
+    """A field of a binary record: its letter in the struct module, and how many values it has, or None for a scalar."""
 
     name: str
     letter: str

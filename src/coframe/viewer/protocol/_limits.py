@@ -9,14 +9,14 @@ __all__ = ["Clamp", "Range"]
 
 
 class Range(NamedTuple):
-    """The minimum and maximum; other numbers are errors."""
+    """The minimum and maximum. Other numbers are errors."""
 
     smallest: float
     largest: float
 
 
 class Clamp(NamedTuple):
-    """The minimum and maximum; other numbers are clamped."""
+    """The minimum and maximum. Other numbers are clamped."""
 
     smallest: float
     largest: float

@@ -44,14 +44,14 @@ class FrameState(IntEnum):
 
 
 class CloudFlag(IntEnum):
-    """Flags of a cloud; the bits above 8 hold the thinning step."""
+    """Flags of a cloud. The bits above 8 hold the thinning step."""
 
     SCALARS = 1
     COLORS = 2
 
 
 class ImageFormat(IntEnum):
-    """The lowest eight bits of an image's format; the bits above 8 hold the thinning step."""
+    """The lowest eight bits of an image's format. The bits above 8 hold the thinning step."""
 
     GRAY = 0
     RGB = 1

@@ -36,7 +36,7 @@ MAX_CURVE_POINTS = 20_000
 
 @dataclass(frozen=True)
 class DisplayOptions:
-    """The options with which the server prepares a display; numbers beyond a limit are clamped.
+    """The options with which the server prepares a display. Numbers beyond a limit are clamped.
 
     Attributes:
         color_by: The value shown by a point's color; None selects the best available one.
@@ -157,7 +157,7 @@ class PublishPose:
 
 @dataclass(frozen=True)
 class PublishStatic:
-    """Publishes another pose for an existing static transform; the quaternion x, y, z, w must be normalized."""
+    """Publishes another pose for an existing static transform. The quaternion x, y, z, w must be normalized."""
 
     type: ClassVar[str] = "publish_static"
     parent: str
@@ -176,7 +176,7 @@ class LoadRviz:
 
 @dataclass(frozen=True)
 class SaveRviz:
-    """Requests an .rviz file with the contents of the page; other parts of the loaded configuration are preserved."""
+    """Requests an .rviz file with the contents of the page. Other parts of the loaded configuration are preserved."""
 
     type: ClassVar[str] = "save_rviz"
     displays: list[RvizDisplay]
@@ -216,7 +216,7 @@ class SetFrameTimeout:
 
 @dataclass(frozen=True)
 class SetFrameRate:
-    """Sets the number of frame updates per second, as "Frame Rate" of an .rviz file; the server sends at most 60."""
+    """Sets the number of frame updates per second, as "Frame Rate" of an .rviz file. The server sends at most 60."""
 
     type: ClassVar[str] = "frame_rate"
     hertz: Annotated[float, Clamp(1.0, 1e6)]
@@ -232,7 +232,7 @@ class RequestCodePage:
 
 @dataclass(frozen=True)
 class CurveRequest:
-    """A curve under an id of the page's choice; the expression is one of ``coframe plot``."""
+    """A curve under an id of the page's choice. The expression is one of ``coframe plot``."""
 
     id: Id
     expression: str
@@ -244,7 +244,7 @@ class SetCurves:
 
     Attributes:
         curves: The curves to show, in the order of the page.
-        span: The part of a recording that the page shows; None for all of it.
+        span: The part of a recording that the page shows, or None for all of it.
         points: The maximum number of points of a curve; thinning preserves minima and maxima.
     """
 
@@ -297,7 +297,7 @@ class ClickNode:
         frame: The fixed frame of the page.
         position: The point on the surface of the node, in the fixed frame.
         local: The same point in the coordinates of the node, as in the arrays of its geometry.
-        index: The index of the point, the line or the triangle that was hit; None for other kinds of nodes.
+        index: The index of the point, the line or the triangle that was hit, or None for other kinds of nodes.
     """
 
     type: ClassVar[str] = "click"
@@ -310,7 +310,7 @@ class ClickNode:
 
 @dataclass(frozen=True)
 class UseWidget:
-    """Presses a button, or changes the value of another widget; the field depends on its kind."""
+    """Presses a button, or changes the value of another widget. The field depends on its kind."""
 
     type: ClassVar[str] = "widget"
     id: Id

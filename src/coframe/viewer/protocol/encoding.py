@@ -60,7 +60,7 @@ _NO_POSE = (float("nan"),) * 7
 
 
 class EntryPose(NamedTuple):
-    """A displayed message, the pose of its frame, (7,), in the fixed frame, and the frame; None without a transform."""
+    """A displayed message, its frame, and the pose of that frame in the fixed frame; None without a transform."""
 
     display: int
     sequence: int
@@ -83,7 +83,7 @@ def encode(message: ServerMessage) -> str:
 
 
 def encode_curves(curves: Sequence[CurvePoints], origin: int) -> bytes:
-    """Return new points of curves; their times become relative to an origin in nanoseconds."""
+    """Return new points of curves. Their times become relative to an origin in nanoseconds."""
     parts: list[Any] = [_CURVES.pack(BinaryKind.CURVES, len(curves))]
     parts += [_CURVE.pack(one.curve, one.reset, len(one.times), 0) for one in curves]
     for one in curves:
@@ -104,7 +104,7 @@ def encode_frames(
 
     Args:
         revision: The revision of the tree that gives the order of the frames.
-        time: The displayed time in nanoseconds relative to the origin of times; NaN if there is no data.
+        time: The displayed time in nanoseconds relative to the origin of times, or NaN if there is no data.
         origin: The local origin in meters in the fixed frame, (3,).
         poses: The poses of all frames relative to the local origin, (N, 7).
         states: The `FrameState` of each frame, (N,).
@@ -207,7 +207,7 @@ def encode_node(
         vertices: Positions relative to the offset, (V, 3).
         indices: Indices of vertices, (I,).
         colors: Red, green, blue and alpha, (C, 4).
-        width: The number of colors in each row of an image; 0 for other nodes.
+        width: The number of colors in each row of an image, or 0 for other nodes.
         offset: The offset in the node, in meters, (3,).
     """
     header = _NODE.pack(BinaryKind.NODE, node, len(vertices), len(indices), len(colors), width, *offset)

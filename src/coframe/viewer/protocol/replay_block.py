@@ -21,7 +21,7 @@ class ReplayDisplayBlock(TypedDict):
         counts: uint32: the number of drawings of each listing.
         sequences: uint32: the drawings of all listings.
         poses: float32[7]: the poses of their frames.
-        stamps: float64: the stamps of these poses; NaN for the time of the listing.
+        stamps: float64: the stamps of these poses, or NaN for the time of the listing.
     """
 
     topic: str

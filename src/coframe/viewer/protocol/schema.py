@@ -213,7 +213,7 @@ class Field:
 
 
 class Record:
-    """An object with known fields; other fields are ignored.
+    """An object with known fields. Other fields are ignored.
 
     Args:
         python_type: The TypedDict or dataclass in `messages`.

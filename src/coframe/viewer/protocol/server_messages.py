@@ -35,7 +35,7 @@ class DisplayTopic(TypedDict):
 
 
 class RvizGlobalOptions(TypedDict):
-    """Global options of an RViz configuration; None for those that are not set."""
+    """Global options of an RViz configuration, or None for those that are not set."""
 
     fixed_frame: str | None
     background: list[int] | None
@@ -59,7 +59,7 @@ RvizConfiguration = TypedDict(
 
 
 class Hello(TypedDict):
-    """The first message. Sent again when the source or the origin changes; the page then starts from scratch.
+    """The first message. It is sent again when the source or the origin changes. The page then starts from scratch.
 
     The page compares ``version`` with its own. ``mode`` is "replay" only inside replay files. ``fixed_is_given`` is
     true if an option or the .rviz file names the fixed frame, so that the page does not use the one of its last
@@ -109,7 +109,7 @@ class Tree(TypedDict):
 
 
 class FrameStats(TypedDict):
-    """Statistics of one frame; None for values that do not apply.
+    """Statistics of one frame, or None for values that do not apply.
 
     ``rate`` is in Hz, ``age`` and ``longest_gap`` in seconds. The state of a root is "static".
     """
@@ -454,7 +454,7 @@ class PublishResult(TypedDict):
 
 
 class SceneNode(TypedDict):
-    """A node that a program has added to the scene; its `NodeHeader` message follows if the node has a geometry.
+    """A node that a program has added to the scene. Its `NodeHeader` message follows if the node has a geometry.
 
     ``frame`` is the frame in which ``pose`` is expressed: a frame of the tree, "" for the fixed frame, or None for the
     nearest node above this one by their names, which are paths (the fixed frame if there is none). ``color`` is None

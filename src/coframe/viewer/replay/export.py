@@ -60,13 +60,13 @@ def export_replay(
     Args:
         source: The recording, the buffer or the connection.
         meshes: The meshes that may be included.
-        rviz: The displays and the view; None for the page's own choice.
+        rviz: The displays and the view, or None for the page's own choice.
         robot: A robot that is shown in addition to recorded ones.
-        fixed: The fixed frame; "" for the one in `rviz` or the root of the largest tree.
+        fixed: The fixed frame, or "" for the one in `rviz` or the root of the largest tree.
         nodes: Return the scene nodes of a program.
-        first: The first time in nanoseconds; None for the start of the source.
-        last: The last time in nanoseconds; None for the end of the source.
-        rate: Frames per second; None for 30, or fewer if a long span has too many poses.
+        first: The first time in nanoseconds, or None for the start of the source.
+        last: The last time in nanoseconds, or None for the end of the source.
+        rate: Frames per second, or None for 30, or fewer if a long span has too many poses.
         progress: Called with a task, the completed amount and the total.
 
     Raises:

@@ -65,7 +65,7 @@ class ReplaySettings(NamedTuple):
 
     Attributes:
         displays: The displays to record.
-        rviz: All displays with their options, and the view; None for the defaults.
+        rviz: All displays with their options, and the view, or None for the defaults.
     """
 
     displays: tuple[ReplayDisplay, ...]

@@ -66,7 +66,7 @@ class RobotDescriptions:
             self.known[0] = Description(robot, message, next(_versions))
 
     def refresh(self, source: ViewerSource, executor: Executor) -> None:
-        """Read new descriptions; the executor parses them."""
+        """Read new descriptions. The executor parses them."""
         for topic in self._topics:
             if topic.work is None:
                 topic.start_reading(source, executor, self._meshes)

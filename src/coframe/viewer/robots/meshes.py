@@ -44,7 +44,7 @@ _PACKAGE = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
 
 
 class MeshError(CoframeError, ValueError):
-    """A mesh is not served; the message gives the reason."""
+    """A mesh is not served. The message gives the reason."""
 
 
 class _Root(NamedTuple):
@@ -56,7 +56,7 @@ class MeshTable:
     """The files that may be fetched, under unguessable URLs. Thread-safe.
 
     Args:
-        find_package: Return the folder of a ROS package; None if it does not exist.
+        find_package: Return the folder of a ROS package, or None if it does not exist.
         roots: Folders below which all meshes and textures may be fetched.
     """
 

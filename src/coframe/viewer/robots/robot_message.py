@@ -44,7 +44,7 @@ def robot_message(robot: Robot, number: int, source: str, topic: str | None, mes
         robot: The parsed description.
         number: The id of the robot.
         source: The file or topic of the description, for display.
-        topic: The topic of the description; None for a file.
+        topic: The topic of the description, or None for a file.
         meshes: The meshes that may be fetched.
     """
     folder = None if robot.path is None else resolved(robot.path).parent
@@ -121,7 +121,7 @@ def _kind_and_size(geometry: Geometry) -> tuple[ShapeKind, list[float]]:
 
 
 def _joints_of(robot: Robot) -> Iterator[RobotJoint]:
-    """Yield the joints; those that a slider can move have a default position."""
+    """Yield the joints. Those that a slider can move have a default position."""
     defaults = robot.zeros()
     for name, joint in robot.joints.items():
         limits = joint.limits if joint.type != "continuous" else None

@@ -33,7 +33,7 @@ def read_tools(manager: dict[str, Any]) -> list[RvizTool]:
 
 
 def merge_tools(manager: dict[str, Any], tools: Sequence[RvizTool], package: str) -> None:
-    """Write the topics and options of tools; other tools and options are preserved."""
+    """Write the topics and options of tools. Other tools and options are preserved."""
     for shown in tools:
         if shown["class"] not in TOOL_CLASSES:
             continue

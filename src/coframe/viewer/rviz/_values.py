@@ -24,7 +24,7 @@ def plain_class(name: Any) -> str:
 
 
 def topic_of(display: Mapping[str, Any]) -> str | None:
-    """Return the topic of a display or tool; None if it has none."""
+    """Return the topic of a display or tool, or None if it has none."""
     for key in _TOPIC_KEYS:
         value = display.get(key)
         value = value.get("Value") if isinstance(value, dict) else value

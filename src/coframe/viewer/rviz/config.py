@@ -60,7 +60,7 @@ class RvizConfig:
     """A configuration, with the parts that the page supports and all others.
 
     Args:
-        document: The content of the YAML file; None for an empty configuration.
+        document: The content of the YAML file, or None for an empty configuration.
     """
 
     def __init__(self, document: dict[str, Any] | None = None) -> None:
@@ -103,13 +103,13 @@ class RvizConfig:
 
     @property
     def fixed_frame(self) -> str:
-        """The fixed frame; "" if the file does not contain one."""
+        """The fixed frame, or "" if the file does not contain one."""
         value = self._global.get("Fixed Frame")
         return value if isinstance(value, str) and value != "<Fixed Frame>" else ""
 
     @property
     def frame_rate(self) -> float | None:
-        """Frames per second; None if the file contains no valid rate."""
+        """Frames per second, or None if the file contains no valid rate."""
         value = self._global.get("Frame Rate")
         return float(value) if is_number(value) and 1 <= value <= 1000 else None
 
@@ -261,7 +261,7 @@ class RvizConfig:
 
 
 def _displays(parent: dict[str, Any], path: str) -> Iterator[_Found]:
-    """Yield all displays; the displays of a group follow the group."""
+    """Yield all displays. The displays of a group follow the group."""
     for display in _sequence(parent, "Displays"):
         if isinstance(display, dict):
             found = _Found("", parent["Displays"], display)

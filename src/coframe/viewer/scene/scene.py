@@ -31,12 +31,12 @@ class SceneStructure(NamedTuple):
     Attributes:
         names: The N frames, in the order of the other attributes.
         indices: The index of each frame by its name.
-        parents: The index of each frame's parent; -1 for roots.
+        parents: The index of each frame's parent, or -1 for roots.
         static: Whether each frame is static; also True for roots.
         components: The index of each frame's tree.
         roots: The root of each tree; if the tree is a loop, one of its frames.
         order: Indices such that parents precede their children.
-        largest: The root of the tree with the most frames; "" if there are no frames.
+        largest: The root of the tree with the most frames, or "" if there are no frames.
     """
 
     names: list[str]
@@ -49,7 +49,7 @@ class SceneStructure(NamedTuple):
     largest: str
 
     def component_of(self, frame: str) -> int | None:
-        """Return the index of a frame's tree; None if the frame does not exist."""
+        """Return the index of a frame's tree, or None if the frame does not exist."""
         return self.components[self.indices[frame]] if frame in self.indices else None
 
 
@@ -82,7 +82,7 @@ class Scene:
         self._tables: dict[str, _core.PoseTable] = {}
 
     def refresh(self) -> None:
-        """Update from the buffer; the cost is proportional to the number of frames."""
+        """Update from the buffer. The cost is proportional to the number of frames."""
         changes = self.buffer._changes
         if changes == self._changes:
             return
@@ -94,7 +94,7 @@ class Scene:
         self._liveness.update(self.infos)
 
     def ages_now(self) -> NDArray[np.float64]:
-        """Return how many seconds ago each frame's last sample arrived, (N,); 0 for static frames."""
+        """Return how many seconds ago each frame's last sample arrived, (N,), or 0 for static frames."""
         return self._liveness.silences() / SECOND
 
     def states_now(self, timeout: float) -> NDArray[np.uint8]:
@@ -188,7 +188,7 @@ class LocalOrigin:
 
         Args:
             placed: All frames.
-            fixed: The index of the fixed frame; None if it does not exist.
+            fixed: The index of the fixed frame, or None if it does not exist.
         """
         local = np.empty((len(placed.states), 7), np.float32)
         far_count = self._localize_into(placed, fixed, local)
@@ -200,7 +200,7 @@ class LocalOrigin:
         return local
 
     def follow(self, placed: PlacedFrames, fixed: int | None) -> NDArray[np.float64]:
-        """Return an origin for these poses; it is unchanged while most of them are near it."""
+        """Return an origin for these poses. It is unchanged while most of them are near it."""
         shown = placed.states <= FrameState.STALE
         if fixed is not None:
             shown[fixed] = False  # The fixed frame is always at zero.

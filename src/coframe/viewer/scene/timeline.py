@@ -67,7 +67,7 @@ def next_stamp(
         direction: 1 for the next stamp, -1 for the previous one.
 
     Returns:
-        The stamp in nanoseconds; None if there is none.
+        The stamp in nanoseconds, or None if there is none.
     """
     candidates = []
     for info in infos:

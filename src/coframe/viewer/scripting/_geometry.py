@@ -33,7 +33,7 @@ _MAX_EXACT_COORDINATE = 1000.0
 
 
 class Geometry(NamedTuple):
-    """The geometry of a node; see :class:`coframe.viewer.protocol.binary_messages.NodeHeader`.
+    """The geometry of a node. See :class:`coframe.viewer.protocol.binary_messages.NodeHeader`.
 
     Attributes:
         vertices: Positions relative to the offset, (V, 3).
@@ -101,7 +101,7 @@ def image_geometry(image: Any) -> Geometry:
 
 
 def box_mesh(size: Vector) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
-    """Return the vertices and the triangles of a box with its center at zero; each side has its own four vertices."""
+    """Return the vertices and the triangles of a box with its center at zero. Each side has its own four vertices."""
     corners: list[NDArray[np.float64]] = []
     faces: list[list[int]] = []
     for axis in range(3):

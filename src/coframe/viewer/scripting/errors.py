@@ -9,4 +9,4 @@ __all__ = ["SceneError"]
 
 
 class SceneError(ViewerError, ValueError):
-    """An invalid argument of the scene or a widget; the message begins with the name of the argument."""
+    """An invalid argument of the scene or a widget. The message begins with the name of the argument."""

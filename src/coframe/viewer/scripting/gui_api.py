@@ -32,7 +32,7 @@ _LIMIT = 1e12
 
 
 class GuiApi:
-    """Adds widgets to the tab *Scene* of the page; any thread may use it.
+    """Adds widgets to the tab *Scene* of the page. Any thread may use it.
 
     Each method returns a handle: its ``value`` is the value that all pages show. ``on_update`` and ``on_click``
     register callbacks. Widgets are shown in the order in which they were added; in the ``with`` block of a folder they
@@ -120,9 +120,9 @@ class GuiApi:
         Args:
             label: The text next to it.
             initial_value: The first value.
-            min: The smallest value; None for no limit.
-            max: The largest value; None for no limit.
-            step: The distance of two neighboring values; None for any number, or 1 if all numbers are ints.
+            min: The smallest value, or None for no limit.
+            max: The largest value, or None for no limit.
+            step: The distance of two neighboring values, or None for any number, or 1 if all numbers are ints.
             hint: A longer description, shown as a tooltip.
             disabled: Whether it is grayed out and cannot be changed.
             visible: Whether it is shown.
@@ -148,7 +148,7 @@ class GuiApi:
         Args:
             label: The text next to it.
             options: The strings to choose from.
-            initial_value: The first value; None for the first option.
+            initial_value: The first value, or None for the first option.
             hint: A longer description, shown as a tooltip.
             disabled: Whether it is grayed out and cannot be changed.
             visible: Whether it is shown.

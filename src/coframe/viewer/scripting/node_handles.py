@@ -51,7 +51,7 @@ class ClickEvent:
         frame: The fixed frame of the page on which the user clicked.
         position: The point on the node's surface, expressed in ``frame``, in meters, (3,).
         local_position: The same point in the node's own coordinates, as in ``target.points``, (3,).
-        index: The index of the point, the line or the triangle that was hit; None for other kinds of nodes.
+        index: The index of the point, the line or the triangle that was hit, or None for other kinds of nodes.
     """
 
     target: NodeHandle
@@ -82,7 +82,7 @@ class NodeHandle:
 
     @property
     def frame(self) -> str | None:
-        """The frame in which the pose is expressed; None for the node above this one, or else the fixed frame."""
+        """The frame in which the pose is expressed, or None for the node above this one, or else the fixed frame."""
         return self._record.frame
 
     @frame.setter
@@ -154,7 +154,7 @@ class NodeHandle:
         return callback
 
     def remove(self) -> None:
-        """Remove the node with everything below it; do nothing if it was removed before."""
+        """Remove the node with everything below it. Do nothing if it was removed before."""
         self._store.remove(self._number)
 
     def __repr__(self) -> str:
@@ -180,7 +180,7 @@ class NodeHandle:
 
 
 class FrameHandle(NodeHandle):
-    """Axes; other nodes can be placed below it."""
+    """Axes. Other nodes can be placed below it."""
 
     @property
     def axes_length(self) -> float:
@@ -216,7 +216,7 @@ class _ColoredHandle(NodeHandle):
 class _VertexColoredHandle(_ColoredHandle):
     @property
     def colors(self) -> NDArray[np.uint8] | None:
-        """Red, green, blue and alpha from 0 to 255 of each point or vertex, (N, 4); None if they have one color."""
+        """Red, green, blue and alpha from 0 to 255 of each point or vertex, (N, 4), or None if they have one color."""
         colors = self._geometry.colors
         return colors.copy() if len(colors) else None
 
@@ -316,7 +316,7 @@ class MeshHandle(_VertexColoredHandle):
         return faces
 
     def update(self, vertices: ArrayLike, faces: ArrayLike, colors: ArrayLike | None = None) -> None:
-        """Replace the triangles; see :meth:`SceneApi.add_mesh`.
+        """Replace the triangles. See :meth:`SceneApi.add_mesh`.
 
         Raises:
             SceneError: An argument is invalid, or the node was removed.
@@ -338,7 +338,7 @@ class TextHandle(_ColoredHandle):
 
     @property
     def text(self) -> str:
-        """The text; it may have several lines."""
+        """The text. It may have several lines."""
         return self._record.text
 
     @text.setter
@@ -371,7 +371,7 @@ class ImageHandle(NodeHandle):
 
     @property
     def width(self) -> float:
-        """The width of the rectangle in meters; its height follows from the shape of the image."""
+        """The width of the rectangle in meters. Its height follows from the shape of the image."""
         return self._record.size
 
     @width.setter

@@ -30,11 +30,11 @@ IDENTITY: Pose = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 @dataclass(frozen=True)
 class NodeRecord(Record):
-    """A node; the attributes are described in :class:`coframe.viewer.protocol.server_messages.SceneNode`.
+    """A node. The attributes are described in :class:`coframe.viewer.protocol.server_messages.SceneNode`.
 
     Attributes:
-        time: The time from which the node is shown, in nanoseconds; None for always.
-        geometry: The geometry; None for axes and text.
+        time: The time from which the node is shown, in nanoseconds, or None for always.
+        geometry: The geometry, or None for axes and text.
         geometry_version: A number that changes with the geometry.
     """
 
@@ -75,7 +75,7 @@ class NodeRecord(Record):
 
 
 class NodeStore(RecordStore[NodeRecord]):
-    """All nodes; any thread may use it.
+    """All nodes. Any thread may use it.
 
     Args:
         callbacks: The thread in which callbacks run.
@@ -89,7 +89,7 @@ class NodeStore(RecordStore[NodeRecord]):
         self._size = 0
 
     def add(self, record: NodeRecord) -> NodeRecord:
-        """Add a node, replacing all nodes with its name; a node with a time replaces only the one with the same time.
+        """Add a node, replacing all nodes with its name. A node with a time replaces only the one with the same time.
 
         Raises:
             SceneError: There are too many nodes, or too many bytes.
@@ -166,7 +166,7 @@ class NodeStore(RecordStore[NodeRecord]):
             self._clicked[number].append(callback)
 
     def clicked(self, click: ClickNode) -> None:
-        """Run the callbacks of a node; do nothing if it was removed meanwhile."""
+        """Run the callbacks of a node. Do nothing if it was removed meanwhile."""
         with self.lock:
             callbacks = list(self._clicked.get(click.node, ()))
         for callback in callbacks:

@@ -53,7 +53,7 @@ class RecordStore(Generic[R]):
             return list(self._records.values())
 
     def get(self, number: int) -> R | None:
-        """Return a record; None if it was removed."""
+        """Return a record, or None if it was removed."""
         return self._records.get(number)
 
     def next_id(self) -> int:
@@ -68,13 +68,13 @@ class RecordStore(Generic[R]):
             return stored
 
     def change(self, number: int, **fields: Any) -> R | None:
-        """Change fields of a record and return it; None if it was removed."""
+        """Change fields of a record and return it, or None if it was removed."""
         with self.lock:
             record = self._records.get(number)
             return None if record is None else self.put(record, **fields)
 
     def drop(self, numbers: Iterable[int]) -> None:
-        """Remove records; those that do not exist are skipped."""
+        """Remove records. Those that do not exist are skipped."""
         with self.lock:
             for number in list(numbers):
                 if self._records.pop(number, None) is not None:

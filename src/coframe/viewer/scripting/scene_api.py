@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from coframe.viewer.scripting.nodes import NodeStore
 
     class Placement(TypedDict, total=False):
-        """The place and time at which a node is drawn; see :class:`SceneApi`."""
+        """The place and time at which a node is drawn. See :class:`SceneApi`."""
 
         frame: str | None
         pose: Transform | None
@@ -61,7 +61,7 @@ _POINT_SIZE, _LINE_WIDTH, _AXES_LENGTH, _TEXT_HEIGHT, _IMAGE_WIDTH = 0.02, 2.0, 
 
 
 class SceneApi:
-    """Draws points, lines, meshes, text, images and axes in the scene; any thread may use it.
+    """Draws points, lines, meshes, text, images and axes in the scene. Any thread may use it.
 
     Names are paths: ``mount/cloud`` is below ``mount``, moves with it, and is hidden and removed with it. Adding a name
     again replaces the node. All pages show the same nodes, also those that are opened later.
@@ -83,7 +83,7 @@ class SceneApi:
 
     Args:
         store: All nodes.
-        complete_buffer: Return the buffer that contains all frames; None if others may appear at any time.
+        complete_buffer: Return the buffer that contains all frames, or None if others may appear at any time.
     """
 
     def __init__(self, store: NodeStore, complete_buffer: Callable[[], Buffer | None]) -> None:
@@ -206,7 +206,7 @@ class SceneApi:
         wireframe: bool = False,
         **placement: Unpack[Placement],
     ) -> MeshHandle:
-        """Draw a triangle mesh; both sides of the triangles are drawn.
+        """Draw a triangle mesh. Both sides of the triangles are drawn.
 
         Args:
             name: Unique name of the node, such as "camera/cloud".
@@ -246,7 +246,7 @@ class SceneApi:
         opacity: float = 1.0,
         **placement: Unpack[Placement],
     ) -> MeshHandle:
-        """Draw a box; its center is at the pose.
+        """Draw a box. Its center is at the pose.
 
         Args:
             name: Unique name of the node, such as "camera/cloud".
@@ -270,7 +270,7 @@ class SceneApi:
         opacity: float = 1.0,
         **placement: Unpack[Placement],
     ) -> MeshHandle:
-        """Draw a sphere or an ellipsoid; its center is at the pose.
+        """Draw a sphere or an ellipsoid. Its center is at the pose.
 
         Args:
             name: Unique name of the node, such as "camera/cloud".
@@ -296,12 +296,12 @@ class SceneApi:
         opacity: float = 1.0,
         **placement: Unpack[Placement],
     ) -> TextHandle:
-        """Draw text that faces the camera, on top of everything else; its center is at the pose.
+        """Draw text that faces the camera, on top of everything else. Its center is at the pose.
 
         Args:
             name: Unique name of the node, such as "camera/cloud".
             text: The text; it may have several lines.
-            color: The color, (3,); None for the color of the labels of frames.
+            color: The color, (3,), or None for the color of the labels of frames.
             height: The height of a line in meters.
             opacity: From 0 to 1.
             **placement: ``frame``, ``pose``, ``position``, ``quaternion``, ``visible``, ``time``; see the class.

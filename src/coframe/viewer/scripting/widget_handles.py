@@ -93,7 +93,7 @@ class WidgetHandle:
         return self._store.get(self._number) is None
 
     def remove(self) -> None:
-        """Remove the widget; do nothing if it was removed before."""
+        """Remove the widget. Do nothing if it was removed before."""
         self._store.remove(self._number)
 
     def __repr__(self) -> str:

@@ -33,11 +33,11 @@ class WidgetRecord(Record):
     Attributes:
         kind: What the widget is, such as a button or a slider.
         label: The text next to it.
-        parent: The id of its folder; None if it is in no folder.
-        value: Its value; None for buttons.
-        lower: The smallest number; None for no limit.
-        upper: The largest number; None for no limit.
-        step: The distance of two neighboring numbers; None for any number.
+        parent: The id of its folder, or None if it is in no folder.
+        value: Its value, or None for buttons.
+        lower: The smallest number, or None for no limit.
+        upper: The largest number, or None for no limit.
+        step: The distance of two neighboring numbers, or None for any number.
         is_whole: Whether the value is an int.
         options: The options of a drop-down.
         hint: A longer description.
@@ -82,7 +82,7 @@ class WidgetRecord(Record):
 
 
 class WidgetStore(RecordStore[WidgetRecord]):
-    """All widgets; any thread may use it.
+    """All widgets. Any thread may use it.
 
     Args:
         callbacks: The thread in which callbacks run.
@@ -142,7 +142,7 @@ class WidgetStore(RecordStore[WidgetRecord]):
             self._used[number].append(callback)
 
     def used(self, use: UseWidget) -> str:
-        """Apply a user's input and run the callbacks; return why it is not valid, or ""."""
+        """Apply a user's input and run the callbacks, and return why it is not valid, or ""."""
         with self.lock:
             record = self.get(use.id)
             if record is None:
@@ -173,7 +173,7 @@ def nearest_step(value: float, lower: float | None, upper: float | None, step: f
 
 
 def _value_of(record: WidgetRecord, use: UseWidget) -> Value:
-    """Return the new value of a widget; None if the request is not valid for it."""
+    """Return the new value of a widget, or None if the request is not valid for it."""
     if record.kind in {"slider", "number"}:
         if use.number is None or not math.isfinite(use.number):
             return None

@@ -60,7 +60,7 @@ class Connections:
         return len(self._open)
 
     def close(self) -> None:
-        """Close all connections; they are removed when they have ended."""
+        """Close all connections. They are removed when they have ended."""
         for connection in list(self._open):
             connection.close()
 

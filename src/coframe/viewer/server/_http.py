@@ -57,7 +57,7 @@ class AccessPolicy:
 
     Attributes:
         content_security: The Content-Security-Policy of all responses.
-        token: The token that requests from other machines must contain; "" if only this machine can connect.
+        token: The token that requests from other machines must contain, or "" if only this machine can connect.
     """
 
     def __init__(self, host: str, port: int) -> None:
@@ -73,7 +73,7 @@ class AccessPolicy:
         self.content_security = _CONTENT_SECURITY_POLICY.format(sockets=" ".join(sockets))
 
     def allows_host(self, host: str | None) -> bool:
-        """Return whether a Host header names this server; other names that resolve to it are rejected."""
+        """Return whether a Host header names this server. Other names that resolve to it are rejected."""
         if host is None:
             return False
         return host.lower() in self._hosts or (self._all_addresses and self._is_address(host))
@@ -161,7 +161,7 @@ def text_response(status: HTTPStatus, text: str, policy: str) -> Response:
 
 
 def page_file(path: str, folder: Path) -> Path | None:
-    """Return the file of the page for a URL path, or its compressed form; None if it does not exist or is outside."""
+    """Return the file of the page for a URL path, or its compressed form; None if there is no such file."""
     root = folder.resolve()
     try:
         file = (root / path.lstrip("/")).resolve()

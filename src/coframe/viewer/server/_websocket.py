@@ -96,7 +96,7 @@ class WebSocket(asyncio.Protocol):
         await self._clear.wait()
 
     def send(self, message: str | bytes | bytearray) -> None:
-        """Send a message as soon as possible; do nothing if the connection has ended."""
+        """Send a message as soon as possible. Do nothing if the connection has ended."""
         opcode = Opcode.TEXT if isinstance(message, str) else Opcode.BINARY
         data = message.encode() if isinstance(message, str) else message
         if len(data) <= _PART:
@@ -130,7 +130,7 @@ class WebSocket(asyncio.Protocol):
             self._transport.abort()
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Start to receive; see asyncio.Protocol."""
+        """Start to receive. See asyncio.Protocol."""
         self._transport = cast("asyncio.Transport", transport)
         if self._connections.add(self):
             self._start_idle_timer()
@@ -138,7 +138,7 @@ class WebSocket(asyncio.Protocol):
             self._transport.abort()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Release everything; see asyncio.Protocol."""
+        """Release everything. See asyncio.Protocol."""
         del exc
         self._transport = None
         self._connections.discard(self)
@@ -153,7 +153,7 @@ class WebSocket(asyncio.Protocol):
             self._listener.disconnected()
 
     def data_received(self, data: bytes) -> None:
-        """Process received bytes; see asyncio.Protocol."""
+        """Process received bytes. See asyncio.Protocol."""
         self._protocol.receive_data(data)
         for event in self._protocol.events_received():
             if isinstance(event, Request):
@@ -167,18 +167,18 @@ class WebSocket(asyncio.Protocol):
             asyncio.get_running_loop().call_later(_CLOSE_TIMEOUT, self.abort)
 
     def eof_received(self) -> None:
-        """Process the end of the received bytes; see asyncio.Protocol."""
+        """Process the end of the received bytes. See asyncio.Protocol."""
         self._protocol.receive_eof()
         self._flush()
 
     def pause_writing(self) -> None:
-        """Stop sending; see asyncio.Protocol."""
+        """Stop sending. See asyncio.Protocol."""
         self._accepts_more = False
         self._clear.clear()
         self._pause("unwritten")  # A client that only sends pings would fill the memory with pongs.
 
     def resume_writing(self) -> None:
-        """Send again; see asyncio.Protocol."""
+        """Send again. See asyncio.Protocol."""
         self._accepts_more = self._is_alive = True
         self._resume("unwritten")
         self._send_unsent()
@@ -270,7 +270,7 @@ def _parts(opcode: int, data: memoryview) -> Iterator[_Part]:
 
 
 def _frame(opcode: int, data: bytes | bytearray | memoryview, is_last: bool) -> bytes:
-    """Return a frame as in RFC 6455, 5.2; with the library, this would double the time of a small update."""
+    """Return a frame as in RFC 6455, 5.2. With the library, this would double the time of a small update."""
     first, length = opcode | (0x80 if is_last else 0), len(data)
     if length < 126:
         head = struct.pack("!BB", first, length)

@@ -87,7 +87,7 @@ class ViewerServer:
 
     @property
     def url(self) -> str:
-        """The page's address; with the token that other machines need, unless only this machine can connect."""
+        """The page's address, with the token that other machines need, unless only this machine can connect."""
         host = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(self._host, self._host)  # noqa: S104 - for display
         return f"http://{f'[{host}]' if ':' in host and '[' not in host else host}:{self.port}/{self._query}"
 
@@ -104,7 +104,7 @@ class ViewerServer:
         return f"?{_TOKEN}={self._access.token}" if self._access.token else ""
 
     def call(self, callback: Callable[..., object], *args: Any) -> None:
-        """Call a function in the server's thread soon; do nothing if the server is closed."""
+        """Call a function in the server's thread soon. Do nothing if the server is closed."""
         with contextlib.suppress(RuntimeError):  # The loop is closed.
             self._loop.call_soon_threadsafe(callback, *args)
 
@@ -191,7 +191,7 @@ class ViewerServer:
         return self._answer_page(path, request.headers.get("If-None-Match"), request.headers.get_all("Accept-Encoding"))
 
     def _refusal(self, request: Request) -> Response | None:
-        """Return the response to a request that is not allowed or not valid; None for others."""
+        """Return the response to a request that is not allowed or not valid, or None for others."""
         policy = self._access.content_security
         for name in _SINGLE_HEADERS:
             if len(request.headers.get_all(name)) > 1:
@@ -209,7 +209,7 @@ class ViewerServer:
         return None
 
     def _token_reply(self, request: Request, parts: SplitResult) -> Response | None:
-        """Return the response to a request without the token or with the token in its address; None for others."""
+        """Return the response to a request without the token or with the token in its address, or None for others."""
         query = parse_qsl(parts.query, keep_blank_values=True)
         if any(key == _TOKEN and self._access.is_token(value) for key, value in query):
             if parts.path == "/ws":  # programs other than browsers

@@ -62,7 +62,7 @@ class AdaptiveSubscription:
         return bool(self._left) or any(subscription.pending() for subscription in list(self._open.values()))
 
     def take(self) -> list[Sample]:
-        """Return the waiting messages; the messages of each publisher are in order."""
+        """Return the waiting messages. The messages of each publisher are in order."""
         with self._lock:
             left, self._left = self._left, []
             return [*left, *self._take(transient_local=True), *self._take(transient_local=False)]

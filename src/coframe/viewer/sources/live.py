@@ -113,7 +113,7 @@ class LiveSource:
 
 
 def _message_class(ros_type: str) -> Any:
-    """Return the class of a type; None if it is unknown."""
+    """Return the class of a type, or None if it is unknown."""
     # Imported here because only message displays need the message classes.
     from coframe.messages import find  # noqa: PLC0415
 

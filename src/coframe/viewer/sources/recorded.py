@@ -53,7 +53,7 @@ class RecordedSource:
         return [(topic.name, topic.type) for topic in self._recording.topics.values()]
 
     def open(self, topic: str) -> RecordedMessages | None:
-        """Return the messages on a topic; None if it was not recorded."""
+        """Return the messages on a topic, or None if it was not recorded."""
         if topic not in self._recording.topics:
             return None
         return RecordedMessages(self._recording, topic)
@@ -125,7 +125,7 @@ class RecordedMessages:
         return self._times
 
     def close(self) -> None:
-        """Do nothing; the recording stays open."""
+        """Do nothing. The recording stays open."""
 
     def _index_after(self, time: int) -> int:
         return len(self._times) if time == 0 else int(np.searchsorted(self._times, time, side="right"))

@@ -26,9 +26,9 @@ class ViewerSource(Protocol):
         mode: The kind of source.
         title: The title of the browser tab.
         buffer: The transforms.
-        connection: The connection to the ROS graph; None if there is none.
-        recording: The recording; None if there is none.
-        span: The first and the last stamp in nanoseconds; None if the transforms determine it.
+        connection: The connection to the ROS graph, or None if there is none.
+        recording: The recording, or None if there is none.
+        span: The first and the last stamp in nanoseconds, or None if the transforms determine it.
     """
 
     mode: Mode
@@ -42,7 +42,7 @@ class ViewerSource(Protocol):
         """Return the topics that exist now, with their types, in order."""
 
     def open(self, topic: str) -> TopicMessages | None:
-        """Return the messages on a topic, which the caller closes; None if the topic does not exist."""
+        """Return the messages on a topic, which the caller closes, or None if the topic does not exist."""
 
     def refresh(self) -> None:
         """Follow changes such as new publishers; called about once per second."""

@@ -42,7 +42,7 @@ class Place:
     Attributes:
         source: The provider of the library, such as "the cyclonedds package".
         searched: The file or the folders that were searched, or a description of what is missing.
-        path: The library; None if it was not found.
+        path: The library, or None if it was not found.
     """
 
     source: str
@@ -90,7 +90,7 @@ def load() -> Library:
 
 
 def loaded() -> Library | None:
-    """Return the library that is loaded; None if there is none."""
+    """Return the library that is loaded, or None if there is none."""
     return _loaded[0] if _loaded else None
 
 
@@ -237,7 +237,7 @@ def _folders(paths: str) -> list[Path]:
 
 
 def _in_folders(source: str, folders: list[Path]) -> Place:
-    """Return the library in the first folder that has one; the newest if there are several versions."""
+    """Return the library in the first folder that has one, or the newest if there are several versions."""
     folders = list(dict.fromkeys(folders))
     searched = os.pathsep.join(map(str, folders))
     for folder in filter(is_dir, folders):

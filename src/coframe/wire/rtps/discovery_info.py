@@ -56,7 +56,7 @@ def choose_gid_size(preferred: int, others: Collection[int]) -> int:
 
 
 def unseen_text(size: int, others: Mapping[int, Collection[str]]) -> str:
-    """Return the warning if some participants cannot read identifiers of `size` bytes; "" if all can.
+    """Return the warning if some participants cannot read identifiers of `size` bytes, or "" if all can.
 
     Args:
         size: The size that this process publishes.
@@ -96,7 +96,7 @@ def encode_info(participant: bytes, nodes: list[NodeInfo], size: int) -> bytes:
 
 
 def decode_info(message: bytes) -> ParticipantInfo | None:
-    """Return the contents of a message with either identifier size; None if it is invalid."""
+    """Return the contents of a message with either identifier size, or None if it is invalid."""
     if len(message) < 4 or message[0] != 0 or message[1] not in (0, 1):
         return None
     order = "<" if message[1] else ">"

@@ -29,7 +29,7 @@ class EndpointReader(Protocol):
     """Receives the writers, readers or participants that DDS discovery finds, including those of this process."""
 
     def take(self) -> list[tuple[Any, ...]]:
-        """Return the changes since the last call; see `_core.EndpointReader.take`."""
+        """Return the changes since the last call. See `_core.EndpointReader.take`."""
 
     def close(self) -> None:
         """Stop."""
@@ -69,7 +69,7 @@ class DdsGraph(Graph):
                 reader.close()
 
     def foreign_services(self, peer: DiscoveredEndpoint) -> str:
-        """Return the DDS implementation of an endpoint if it sends requests in another form; "" if not."""
+        """Return the DDS implementation of an endpoint if it sends requests in another form, or "" if not."""
         if vendors.shares_services(peer.guid, peer.partitions):
             return ""
         return vendors.vendor(peer.guid) or vendors.unknown_vendor(peer.guid)

@@ -25,6 +25,6 @@ def endpoint_user_data(ros_type: str, extra: str = "") -> str:
 
 
 def type_hash_of(user_data: bytes) -> str:
-    """Return the type hash in the user data of an endpoint; "" if there is none, as in Humble."""
+    """Return the type hash in the user data of an endpoint, or "" if there is none, as in Humble."""
     found = _TYPE_HASH.search(user_data)
     return found[1].decode() if found else ""

@@ -36,7 +36,7 @@ class _Node:
         self.endpoints: dict[str, Token] = {}
 
     def info(self) -> NodeInfo | None:
-        """Return the node with its endpoints; None if it has left."""
+        """Return the node with its endpoints, or None if it has left."""
         described = self.token or next(iter(self.endpoints.values()), None)
         if described is None:
             return None
@@ -90,7 +90,7 @@ class ZenohGraph(Graph):
             thread.join()
 
     def add_own(self, token: str, *, declared: bool) -> None:
-        """Process a token of this process immediately; it also arrives from Zenoh, slightly later."""
+        """Process a token of this process immediately. It also arrives from Zenoh, slightly later."""
         self._limits.add_own(token, declared=declared)
         self._pending.append((declared, token))
 
@@ -113,7 +113,7 @@ class ZenohGraph(Graph):
             }
 
     def known_hash(self, endpoint: Endpoint) -> str:
-        """Return the hash of a type that other nodes announce on a topic; "" if there is none."""
+        """Return the hash of a type that other nodes announce on a topic, or "" if there is none."""
         self.refresh()
         with self._lock:
             for writers in (True, False):
@@ -157,7 +157,7 @@ class ZenohGraph(Graph):
         return bool(touched)
 
     def _apply(self, text: str, token: Token, *, declared: bool) -> set[bytes]:
-        """Process one token and return the identifier of its node; None if it is not stored."""
+        """Process one token and return the identifier of its node, or None if it is not stored."""
         if declared and not self._limits.add(text):
             return set()
         participant = f"{token.session}/{token.node}".encode()

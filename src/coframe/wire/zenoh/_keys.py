@@ -43,7 +43,7 @@ def attachment(sequence: int, gid: bytes) -> bytes:
 
 
 def decode_attachment(data: bytes) -> Attachment | None:
-    """Return the contents of an attachment; None if it is not valid."""
+    """Return the contents of an attachment, or None if it is not valid."""
     if len(data) != _ATTACHMENT.size:
         return None
     sequence, sent, size, gid = _ATTACHMENT.unpack(data)

@@ -31,7 +31,7 @@ def encode_qos(qos: QoS) -> str:
 
 
 def decode_qos(text: str) -> QoS | None:
-    """Return the quality of service in a string; None if it is not valid."""
+    """Return the quality of service in a string, or None if it is not valid."""
     parts = [part.split(",") for part in text.split(":")]
     if [len(part) for part in parts] != [1, 1, 2, 2, 2, 3]:
         return None

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class _Subscription(ZenohEndpoint):
-    """Base class of subscriptions; subclasses consume the messages."""
+    """Base class of subscriptions. Subclasses consume the messages."""
 
     _receiver: Receiver | None = None
 
@@ -118,7 +118,7 @@ class ZenohTap(_Subscription):
             messages.writers.append(message.writer)
 
     def take(self) -> tuple[bytes, bytes, bytes, bytes, bytes]:
-        """Return the messages since the last call; see `_core.Tap.take`."""
+        """Return the messages since the last call. See `_core.Tap.take`."""
         with self._messages_lock:
             taken, self._messages = self._messages, _Messages()
         return (
@@ -175,7 +175,7 @@ class ZenohTfReader(_Subscription):
 
     @property
     def stored_at(self) -> int:
-        """When the transforms of the newest message were stored, in nanoseconds of the steady clock; 0 if never."""
+        """When the transforms of the newest message were stored, in nanoseconds of the steady clock, or 0 if never."""
         return self._store.stored_at
 
     @property

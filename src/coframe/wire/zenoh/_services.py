@@ -68,7 +68,7 @@ class ServiceTable:
                 self._replies.pop(reader.key, None)
 
     def deliver(self, key: str, message: bytes, sent: int, writer: int) -> None:
-        """Pass a reply with its header to the readers of a service; each client recognizes its own."""
+        """Pass a reply with its header to the readers of a service. Each client recognizes its own."""
         with self._lock:
             readers = list(self._replies.get(key, ()))
         for reader in readers:
@@ -88,7 +88,7 @@ class ServiceTable:
             return pending.pop(next(iter(pending))) if len(pending) > KEEP_ALL else None
 
     def take_request(self, key: str, header: RequestHeader) -> _Request | None:
-        """Return a request and forget it; None if it is not pending."""
+        """Return a request and forget it, or None if it is not pending."""
         with self._lock:
             return self._requests.get(key, {}).pop(header, None)
 

@@ -196,7 +196,7 @@ class ZenohSession:
         self._session.close()
 
     def _subscription_place(self, node: GraphNode, endpoint: Endpoint, qos: QoS) -> Place:
-        """Return the context of a subscription; if its type is unknown, it receives every definition of the type."""
+        """Return the context of a subscription. If its type is unknown, it receives every definition of the type."""
         _check_names(endpoint)
         type_hash = self._hash_of(endpoint)
         if not type_hash:
@@ -241,7 +241,7 @@ class ZenohSession:
         return self._nodes[node]
 
     def _hash_of(self, endpoint: Endpoint) -> str:
-        """Return the hash of a type: from its definition, or from other nodes that use it; "" if it is unknown."""
+        """Return the hash of a type: from its definition, or from other nodes that use it, or "" if it is unknown."""
         return type_hash_of_name(_keys.interface(endpoint)) or self.graph.known_hash(endpoint)
 
     def _required_hash(self, endpoint: Endpoint) -> str:

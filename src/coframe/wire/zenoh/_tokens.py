@@ -119,7 +119,7 @@ def user_data_token(domain: int, token: str, user_data: str) -> str:
 
 
 def decode_user_data(text: str) -> tuple[bytes, bytes] | None:
-    """Return the identifier and the user data of an endpoint; None if the token is of another kind."""
+    """Return the identifier and the user data of an endpoint, or None if the token is of another kind."""
     chunks = text.split("/")
     if len(chunks) != 4 or chunks[0] != _USER_DATA_SPACE or len(text) > MAX_BYTES:
         return None
@@ -130,7 +130,7 @@ def decode_user_data(text: str) -> tuple[bytes, bytes] | None:
 
 
 def decode_token(text: str) -> Token | None:
-    """Return the contents of a token; None if it is not valid."""
+    """Return the contents of a token, or None if it is not valid."""
     chunks = text.split("/")
     if len(text) > MAX_BYTES or len(chunks) < _NODE_CHUNKS or not all(chunks) or chunks[0] != _SPACE:
         return None

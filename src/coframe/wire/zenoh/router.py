@@ -35,7 +35,7 @@ class Router:
     """A running router.
 
     Args:
-        file: The configuration file, which replaces the defaults; "" for the file in ZENOH_ROUTER_CONFIG_URI, or the
+        file: The configuration file, which replaces the defaults, or "" for the file in ZENOH_ROUTER_CONFIG_URI, or the
             defaults of ROS 2.
         listen: The endpoints to listen on. If empty, the endpoints in the configuration, or port 7447 of the loopback
         interface

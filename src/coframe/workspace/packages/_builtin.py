@@ -83,7 +83,7 @@ def names() -> frozenset[str]:
 
 
 def share(package: str) -> Path:
-    """Return the folder of a built-in package; it does not exist if the package has only executables."""
+    """Return the folder of a built-in package. It does not exist if the package has only executables."""
     return (
         Path(__file__).resolve().parents[2] if package == "coframe" else ros_folder() / _FOLDERS.get(package, package)
     )

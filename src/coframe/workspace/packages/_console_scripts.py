@@ -43,7 +43,7 @@ class PythonPackage(NamedTuple):
 
 
 def read(package: Path) -> PythonPackage:
-    """Read ``setup.py``, ``setup.cfg`` and ``pyproject.toml``; missing or damaged files are ignored."""
+    """Read ``setup.py``, ``setup.cfg`` and ``pyproject.toml``. Missing or damaged files are ignored."""
     scripts: dict[str, str] = {}
     components: dict[str, str] = {}
     files: tuple[str, ...] = ()
@@ -156,7 +156,7 @@ def _from_setup_arguments(arguments: dict[str, Any]) -> PythonPackage:
 
 
 def short(value: str | list[Any]) -> Any:
-    """Return a value; None if it is longer than a file, because a few lines can double a string any number of times."""
+    """Return a value, or None if it is too long, because a few lines can double a string any number of times."""
     return value if len(value) <= MAX_BYTES else None
 
 
@@ -170,7 +170,7 @@ def _called(function: ast.expr) -> str:
 
 
 def value_of(node: ast.expr, names: dict[str, Any]) -> Any:
-    """Return the value of a literal, a variable, or a string composed of these; None for anything else."""
+    """Return the value of a literal, a variable, or a string composed of these, or None for anything else."""
     if isinstance(node, ast.Constant):
         return node.value
     if isinstance(node, ast.Name):

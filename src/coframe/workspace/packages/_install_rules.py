@@ -59,7 +59,7 @@ def installed_files(package: Path, name: str) -> dict[str, Path]:
 
 
 def _below_share(destination: str, name: str) -> str | None:
-    """Return a path of an installation relative to the share folder of the package; None if it is elsewhere."""
+    """Return a path of an installation relative to the share folder of the package, or None if it is elsewhere."""
     parts = PurePosixPath(destination).parts
     if parts[:2] != ("share", name) or ".." in parts or not 3 <= len(parts) <= _MAX_DEPTH or "\0" in destination:
         return None

@@ -72,7 +72,7 @@ def find_executable(package: str, name: str) -> Executable:
 
 
 def executables(package: str) -> dict[str, Executable]:
-    """Return the executables of a package by name; an installed one comes before the one in the source folder."""
+    """Return the executables of a package by name. An installed one comes before the one in the source folder."""
     found: dict[str, Executable] = {}
     for candidate in candidates(package):
         for name, executable in _executables_of(candidate).items():
@@ -170,7 +170,7 @@ def _installed_programs(words: list[str]) -> list[str]:
 
 
 def _command_of(file: Path) -> tuple[str, ...]:
-    """Return the command of a script; a Python file needs neither the executable bit nor a first line with #!."""
+    """Return the command of a script. A Python file needs neither the executable bit nor a first line with #!."""
     if file.suffix == ".py" or _has_python_shebang(file):
         return (*_ENTRY_POINT, str(file))
     return (str(file),)

@@ -48,7 +48,7 @@ class Package(NamedTuple):
         share: Folder with its launch files and other data: ``share/NAME`` of an installation, or the source folder.
         prefix: Installation prefix; for a source folder, the folder that contains it.
         origin: ``"installed"``, ``"source"`` or ``"builtin"``.
-        source: The source folder; None if there is none.
+        source: The source folder, or None if there is none.
     """
 
     name: str

@@ -26,7 +26,7 @@ def existing_folders(variable: str) -> Iterator[Path]:
 
 
 def package_around(path: Path) -> Path | None:
-    """Return the innermost package that contains a file or folder, or is the folder; None if there is none."""
+    """Return the innermost package that contains a file or folder, or is the folder, or None if there is none."""
     return next((folder for folder in [path, *path.parents] if is_file(folder / MANIFEST)), None)
 
 

@@ -53,7 +53,7 @@ def share_of_source(package: Path, name: str) -> Path:
 
 
 def source_of(share: Path) -> Path:
-    """Return the source folder to which the links in a share folder lead; the folder itself if it has none."""
+    """Return the source folder to which the links in a share folder lead, or the folder itself if it has none."""
     return _sources.get(share, share)
 
 

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/action_tutorials_interfaces/action; do not edit.
-"""Actions of action_tutorials_interfaces; each class is created when it is first used."""
+"""Actions of action_tutorials_interfaces. Each class is created when it is first used."""
 
 from coframe.messages.packages import shipped_exports
 

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/composition_interfaces/srv; do not edit.
-"""Services of composition_interfaces; each class is created when it is first used."""
+"""Services of composition_interfaces. Each class is created when it is first used."""
 
 from coframe.messages.packages import shipped_exports
 

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/example_interfaces/action; do not edit.
-"""Actions of example_interfaces; each class is created when it is first used."""
+"""Actions of example_interfaces. Each class is created when it is first used."""
 
 from coframe.messages.packages import shipped_exports
 

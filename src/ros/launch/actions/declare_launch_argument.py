@@ -30,7 +30,7 @@ class DeclareLaunchArgument(Action):
         name: Name of the argument.
         default_value: Its value if it is not given; without one, the argument is required.
         description: Text for ``--show-args``.
-        choices: The allowed values; None for any value.
+        choices: The allowed values, or None for any value.
         condition: Declare it only if this condition holds.
 
     Raises:
@@ -86,7 +86,7 @@ class DeclareLaunchArgument(Action):
 
     @property
     def default_value(self) -> list[Substitution] | None:
-        """The default value; None for a required argument."""
+        """The default value, or None for a required argument."""
         return self.__default_value
 
     @property
@@ -96,7 +96,7 @@ class DeclareLaunchArgument(Action):
 
     @property
     def choices(self) -> list[str] | None:
-        """The allowed values; None for any value."""
+        """The allowed values, or None for any value."""
         return self.__choices
 
     def execute(self, context: LaunchContext) -> list[Any] | None:

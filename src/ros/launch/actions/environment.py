@@ -87,7 +87,7 @@ class ReplaceEnvironmentVariables(Action):
     """Replace all environment variables.
 
     Args:
-        environment: The variables with their values; None for no variables.
+        environment: The variables with their values, or None for no variables.
         condition: Replace them only if this condition holds.
     """
 

@@ -64,7 +64,7 @@ class ExecuteLocal(Action):
         on_exit: Entities, or a function from event and context to entities, for when the process ends.
         respawn: Start the process again when it ends.
         respawn_delay: Seconds to wait before that.
-        respawn_max_retries: The maximum number of restarts; -1 for no limit.
+        respawn_max_retries: The maximum number of restarts, or -1 for no limit.
         condition: Run the process only if this condition holds.
     """
 
@@ -145,12 +145,12 @@ class ExecuteLocal(Action):
 
     @property
     def process_details(self) -> dict[str, Any] | None:
-        """The facts about the running process: name, cmd, cwd, env and pid; None before it was started."""
+        """The facts about the running process: name, cmd, cwd, env and pid, or None before it was started."""
         return self.__details
 
     @property
     def name(self) -> Any:
-        """The name of the process with its number; before it was started, the given name."""
+        """The name of the process with its number. Before it was started, the given name."""
         return self.__process_description.final_name or self.__process_description.name
 
     @property
@@ -208,7 +208,7 @@ class ExecuteLocal(Action):
         self.__process_description.apply_context(context)
 
     def execute(self, context: LaunchContext) -> list[Any] | None:
-        """Start the process; it runs in a task of the event loop."""
+        """Start the process. It runs in a task of the event loop."""
         self.prepare(context)
         name = self.__process_description.final_name
         if self.__executed:

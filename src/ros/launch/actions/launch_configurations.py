@@ -68,7 +68,7 @@ class ResetLaunchConfigurations(Action):
     """Remove all launch configurations except the given ones.
 
     Args:
-        launch_configurations: Names and values of those that stay; None for none of them.
+        launch_configurations: Names and values of those that stay, or None for none of them.
         condition: Do it only if this condition holds.
     """
 

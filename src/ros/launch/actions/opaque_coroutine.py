@@ -18,7 +18,7 @@ __all__ = ["OpaqueCoroutine"]
 
 
 class OpaqueCoroutine(Action):
-    """Run a coroutine in the event loop; it is cancelled when the system shuts down.
+    """Run a coroutine in the event loop. It is cancelled when the system shuts down.
 
     Args:
         coroutine: The coroutine function, whose first argument is the context.

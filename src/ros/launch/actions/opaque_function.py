@@ -17,7 +17,7 @@ __all__ = ["OpaqueFunction"]
 
 
 class OpaqueFunction(Action):
-    """Call a function with the launch context; it may return entities to visit.
+    """Call a function with the launch context. It may return entities to visit.
 
     Args:
         function: The function, whose first argument is the context.

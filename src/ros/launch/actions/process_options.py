@@ -18,7 +18,7 @@ __all__ = ["performed_bool", "performed_float", "performed_output", "timeout"]
 
 
 def timeout(seconds: SomeSubstitutionsType | float | None, name: str) -> list[Substitution]:
-    """Return a timeout in seconds as substitutions; its default is a launch configuration, or 5 s."""
+    """Return a timeout in seconds as substitutions. Its default is a launch configuration, or 5 s."""
     if seconds is None:
         return [LaunchConfiguration(name, default="5")]
     return normalize_to_list_of_substitutions(str(seconds) if isinstance(seconds, int | float) else seconds)

@@ -22,7 +22,7 @@ _STREAMS = {1: "stdout", 2: "stderr"}
 
 
 class RunningProcess(asyncio.SubprocessProtocol):
-    """A child process; on POSIX it leads a process group, to which also its own children belong.
+    """A child process. On POSIX it leads a process group, to which also its own children belong.
 
     Ctrl-C in the terminal therefore reaches only the launcher, which then sends SIGINT to all groups.
     """
@@ -42,7 +42,7 @@ class RunningProcess(asyncio.SubprocessProtocol):
     async def start(
         cls, command: list[str] | str, *, cwd: str | None, env: dict[str, str], emulate_tty: bool
     ) -> RunningProcess:
-        """Start a command; a text is run by the shell.
+        """Start a command. A text is run by the shell.
 
         Args:
             command: The words, or the text.
@@ -116,7 +116,7 @@ class RunningProcess(asyncio.SubprocessProtocol):
             self._all_read.set()
 
     def process_exited(self) -> None:
-        """Take note that the process has ended; its streams may still be open in its children."""
+        """Take note that the process has ended. Its streams may still be open in its children."""
         self._exited.set()
 
     @property

@@ -82,13 +82,13 @@ class TimerAction(Action):
         return self.__completed_future
 
     def cancel(self) -> None:
-        """Cancel the timer; its entities are not visited."""
+        """Cancel the timer. Its entities are not visited."""
         self.__cancelled = True
         if self.__waiting is not None:
             self.__waiting.cancel()
 
     def _wait(self, context: LaunchContext, seconds: float) -> Any:
-        """Return the coroutine that waits for the end of the period; subclasses measure time differently."""
+        """Return the coroutine that waits for the end of the period. Subclasses measure time differently."""
         del context
         return asyncio.sleep(seconds)
 

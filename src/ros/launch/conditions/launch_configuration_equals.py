@@ -16,7 +16,7 @@ __all__ = ["LaunchConfigurationEquals", "LaunchConfigurationNotEquals"]
 
 
 class LaunchConfigurationEquals(Condition):
-    """Holds if a launch configuration has a value; with None, if it is not set."""
+    """Holds if a launch configuration has a value. With None, if it is not set."""
 
     def __init__(self, launch_configuration_name: str, expected_value: SomeSubstitutionsType | None) -> None:
         self._name = launch_configuration_name
@@ -29,7 +29,7 @@ class LaunchConfigurationEquals(Condition):
 
 
 class LaunchConfigurationNotEquals(LaunchConfigurationEquals):
-    """Holds if a launch configuration does not have a value; with None, if it is set."""
+    """Holds if a launch configuration does not have a value. With None, if it is set."""
 
     def _evaluate(self, context: LaunchContext) -> bool:
         return not super()._evaluate(context)

@@ -31,10 +31,10 @@ class Executable:
 
     Args:
         cmd: The words of the command.
-        prefix: Words to put in front, such as ``gdb --args``; None for the launch configuration ``launch-prefix``.
-        name: Name of the process; None for the file name of the executable. A number is appended.
+        prefix: Words to put in front, such as ``gdb --args``, or None for the launch configuration ``launch-prefix``.
+        name: Name of the process, or None for the file name of the executable. A number is appended.
         cwd: Working directory.
-        env: Environment; None for the one of this process.
+        env: Environment, or None for the one of this process.
         additional_env: Variables to add to the environment.
         arguments: Additional arguments of the command.
     """
@@ -94,26 +94,26 @@ class Executable:
 
     @property
     def final_name(self) -> str | None:
-        """The name with its number; None before the command was prepared."""
+        """The name with its number, or None before the command was prepared."""
         return self.__final_name
 
     @property
     def final_cmd(self) -> list[str] | None:
-        """The words of the command; None before the command was prepared."""
+        """The words of the command, or None before the command was prepared."""
         return self.__final_cmd
 
     @property
     def final_cwd(self) -> str | None:
-        """The working directory; None for the one of this process."""
+        """The working directory, or None for the one of this process."""
         return self.__final_cwd
 
     @property
     def final_env(self) -> dict[str, str] | None:
-        """The environment; None before the command was prepared."""
+        """The environment, or None before the command was prepared."""
         return self.__final_env
 
     def prepare(self, context: LaunchContext, action: Action) -> None:
-        """Prepare the description before its substitutions are performed; subclasses override it."""
+        """Prepare the description before its substitutions are performed. Subclasses override it."""
 
     def apply_context(self, context: LaunchContext) -> None:
         """Perform all substitutions."""
@@ -127,7 +127,7 @@ class Executable:
         self.__final_env = {**base, **program_env, **_perform(context, self.__additional_env or [])}
 
     def _program(self, context: LaunchContext, word: str) -> tuple[Sequence[str], Mapping[str, str]]:
-        """Return the words that start the program, and the variables that it needs; subclasses override it."""
+        """Return the words that start the program, and the variables that it needs. Subclasses override it."""
         del context
         return [word], {}
 

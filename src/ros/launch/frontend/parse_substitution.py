@@ -25,6 +25,6 @@ def parse_substitution(string: str) -> list[Substitution]:
 
 
 def parse_if_substitutions(value: Any) -> Any:
-    """Return the substitutions of a string or list of strings; return other values unchanged."""
+    """Return the substitutions of a string or list of strings, and return other values unchanged."""
     Parser.load_launch_extensions()
     return Parser().parse_if_substitutions(value)

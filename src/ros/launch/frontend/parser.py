@@ -88,7 +88,7 @@ class Parser:
         return parse_text(str(value))
 
     def parse_if_substitutions(self, value: Any) -> Any:
-        """Return the substitutions of a string or list of strings; return other values unchanged."""
+        """Return the substitutions of a string or list of strings, and return other values unchanged."""
         if isinstance(value, str):
             return self.parse_substitution(value)
         if isinstance(value, list) and value and all(isinstance(item, str) for item in value):

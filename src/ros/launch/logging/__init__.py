@@ -55,7 +55,7 @@ class LaunchConfig:
 
     @property
     def log_dir(self) -> str:
-        """The folder of the log files of this run; it is created at the first use."""
+        """The folder of the log files of this run. It is created at the first use."""
         if self._log_dir is None:
             self.log_dir = str(_new_log_folder())
         return str(self._log_dir)

@@ -26,7 +26,7 @@ __all__ = ["AnonName"]
 
 @expose_substitution("anon")
 class AnonName(Substitution):
-    """A name with a suffix that makes it unique; the same name gives the same result in one launch."""
+    """A name with a suffix that makes it unique. The same name gives the same result in one launch."""
 
     def __init__(self, name: SomeSubstitutionsType) -> None:
         self.__name = normalize_to_list_of_substitutions(name)

@@ -23,7 +23,7 @@ __all__ = ["PythonExpression"]
 
 @expose_substitution("eval")
 class PythonExpression(Substitution):
-    """The value of a Python expression, as text; it can use the module ``math`` and all names in it.
+    """The value of a Python expression, as text. It can use the module ``math`` and all names in it.
 
     Args:
         expression: The Python expression to evaluate; it may contain substitutions.
@@ -38,7 +38,7 @@ class PythonExpression(Substitution):
 
     @classmethod
     def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[Substitution], dict[str, Any]]:
-        """Read ``$(eval EXPRESSION [MODULES])``; the modules are separated by commas."""
+        """Read ``$(eval EXPRESSION [MODULES])``. The modules are separated by commas."""
         check_arguments("eval", data, 1, 2)
         options: dict[str, Any] = {"expression": data[0]}
         if len(data) == 2:

@@ -54,7 +54,7 @@ def extract_type(data_type: Any) -> tuple[Any, bool]:
 
 
 def is_instance_of(value: Any, data_type: Any, *, can_be_str: bool = False) -> bool:
-    """Return whether a value has a type such as `int` or `List[int]`; with `can_be_str`, strings also count."""
+    """Return whether a value has a type such as `int` or `List[int]`. With `can_be_str`, strings also count."""
     if data_type is None:
         return True
     if can_be_str and (isinstance(value, str) or (isinstance(value, list) and all(isinstance(v, str) for v in value))):

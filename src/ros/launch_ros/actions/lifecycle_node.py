@@ -112,7 +112,7 @@ class LifecycleNode(Node):
         context.add_completion_future(task)
 
     async def __change_state(self, context: LaunchContext, transition_id: int) -> None:
-        """Call the service; this waits for the node as long as the system is not shut down."""
+        """Call the service. This waits for the node as long as the system is not shut down."""
         name = ChangeState.valid_transitions[transition_id]
         loop = asyncio.get_running_loop()
         service = f"{self.node_name}/change_state"

@@ -225,7 +225,7 @@ class Node(ExecuteLocal):
         super().prepare(context)
 
     def execute(self, context: LaunchContext) -> list[Any] | None:
-        """Start the node; warn if there is another node of the same name."""
+        """Start the node, and warn if there is another node of the same name."""
         result = super().execute(context)
         if self.is_node_name_fully_specified():
             add_node_name(context, self.node_name)

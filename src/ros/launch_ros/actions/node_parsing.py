@@ -95,7 +95,7 @@ def _nested_parameters(parameters: list[Entity], parser: Parser) -> dict[Any, An
 
 
 def _type(name: str | None) -> Any:
-    """Return the type with a name such as ``str`` or ``list_of_str``; None for that which YAML gives the value."""
+    """Return the type with a name such as ``str`` or ``list_of_str``, or None for that which YAML gives the value."""
     if name is None:
         return None
     scalar = _TYPES.get(name.removeprefix(_LIST))

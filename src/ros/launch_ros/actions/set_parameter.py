@@ -22,7 +22,7 @@ __all__ = ["SetParameter"]
 
 @expose_action("set_parameter")
 class SetParameter(Action):
-    """Set a parameter of all nodes after it in the same group; the parameters of a node override it."""
+    """Set a parameter of all nodes after it in the same group. The parameters of a node override it."""
 
     def __init__(self, name: SomeSubstitutionsType, value: Any, **options: Any) -> None:
         super().__init__(**options)

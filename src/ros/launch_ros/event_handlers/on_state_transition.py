@@ -23,10 +23,10 @@ class OnStateTransition(EventHandler):
 
     Args:
         entities: Entities to visit.
-        target_lifecycle_node: The action that has started the node; None for all nodes.
-        transition: Name of the transition; None for all.
-        start_state: Name of the state before; None for all.
-        goal_state: Name of the state after; None for all.
+        target_lifecycle_node: The action that has started the node, or None for all nodes.
+        transition: Name of the transition, or None for all.
+        start_state: Name of the state before, or None for all.
+        goal_state: Name of the state after, or None for all.
         matcher: Predicate for events, instead of all these.
         options: Keyword arguments of EventHandler.
     """

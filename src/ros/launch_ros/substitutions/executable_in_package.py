@@ -28,7 +28,7 @@ __all__ = ["ExecutableInPackage", "executable_in_package"]
 @expose_substitution("exec-in-pkg")
 @expose_substitution("exec-in-package")
 class ExecutableInPackage(Substitution):
-    """The path of an executable of a package; for a console script that is not installed, the path of a wrapper."""
+    """The path of an executable of a package. For a console script that is not installed, the path of a wrapper."""
 
     def __init__(self, executable: SomeSubstitutionsType, package: SomeSubstitutionsType) -> None:
         self.__executable = normalize_to_list_of_substitutions(executable)

@@ -48,7 +48,7 @@ class FindPackage(Substitution):
         return f"{type(self).__name__}(pkg={' + '.join(part.describe() for part in self.package)})"
 
     def find(self, package_name: str) -> str:
-        """Return the folder; subclasses override it."""
+        """Return the folder. Subclasses override it."""
         raise NotImplementedError
 
     def perform(self, context: LaunchContext) -> str:
@@ -61,7 +61,7 @@ class FindPackagePrefix(FindPackage):
     """The installation prefix of a package."""
 
     def find(self, package_name: str) -> str:
-        """Return the prefix; for a package that is not installed, the folder that contains it."""
+        """Return the prefix. For a package that is not installed, the folder that contains it."""
         return str(_found(package_name).prefix)
 
 
@@ -70,7 +70,7 @@ class FindPackageShare(FindPackage):
     """The folder with the launch files and other data of a package."""
 
     def find(self, package_name: str) -> str:
-        """Return the folder; for a package that is not installed, its source folder."""
+        """Return the folder. For a package that is not installed, its source folder."""
         return str(_found(package_name).share)
 
 

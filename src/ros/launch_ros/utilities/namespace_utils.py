@@ -22,7 +22,7 @@ def make_namespace_absolute(ns: str | None) -> str | None:
 
 
 def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
-    """Return a namespace below another one; an absolute namespace stays as it is."""
+    """Return a namespace below another one. An absolute namespace stays as it is."""
     if base_ns is None and ns is None:
         return None
     if not base_ns or (ns and is_namespace_absolute(ns)):

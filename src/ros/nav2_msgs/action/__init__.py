@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/nav2_msgs/action; do not edit.
-"""Actions of nav2_msgs; each class is created when it is first used."""
+"""Actions of nav2_msgs. Each class is created when it is first used."""
 
 from coframe.messages.packages import shipped_exports
 

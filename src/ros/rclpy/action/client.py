@@ -221,7 +221,7 @@ class ActionClient(Destroyable):
 
     @property
     def _Coframe__refusal(self) -> str:
-        """Why no goal can be sent although there is a server; "" if there is no reason."""
+        """Why no goal can be sent although there is a server, or "" if there is no reason."""
         return next((reason for client in self.__clients if (reason := client._Coframe__refusal)), "")
 
     def wait_for_server(self, timeout_sec: float | None = None) -> bool:
@@ -238,7 +238,7 @@ class ActionClient(Destroyable):
     def configure_introspection(
         self, clock: Clock, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
     ) -> None:
-        """Publish events of the action's three services, or stop; see `Client.configure_introspection`."""
+        """Publish events of the action's three services, or stop. See `Client.configure_introspection`."""
         for client in self.__clients:
             client.configure_introspection(clock, service_event_qos_profile, introspection_state)
 

@@ -228,7 +228,7 @@ class ActionServer(Destroyable):
     def configure_introspection(
         self, clock: Clock, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
     ) -> None:
-        """Publish events of the action's three services, or stop; see `Service.configure_introspection`."""
+        """Publish events of the action's three services, or stop. See `Service.configure_introspection`."""
         for service in self.__services:
             service.configure_introspection(clock, service_event_qos_profile, introspection_state)
 
@@ -393,7 +393,7 @@ class ActionServer(Destroyable):
         self.__result_service.send_response(response, header)
 
     def _Coframe__set_result(self, goal_handle: ServerGoalHandle, result: Any) -> None:
-        """Send the result to the waiting clients and keep it for later requests. Only the first result applies."""
+        """Send the result to the waiting clients and keep it for later requests; only the first result applies."""
         response = self._action_type.Impl.GetResultService.Response(status=goal_handle.status, result=result)
         with self._lock:
             if goal_handle._Coframe__result_response is not None:

@@ -269,7 +269,7 @@ class AsyncNode(Node):
     def create_publisher(
         self, msg_type: type[Any], topic: str, qos_profile: QoSProfile | int, **options: Any
     ) -> Publisher:
-        """Create a publisher; see `Node.create_publisher`."""
+        """Create a publisher. See `Node.create_publisher`."""
         self.__check("publisher")
         return super().create_publisher(msg_type, topic, qos_profile, **options)
 
@@ -285,7 +285,7 @@ class AsyncNode(Node):
         content_filter_options: ContentFilterOptions | None = None,
         **options: Any,
     ) -> Subscription:
-        """Create a subscription; see `Node.create_subscription`.
+        """Create a subscription. See `Node.create_subscription`.
 
         Args:
             msg_type: Class of the messages.
@@ -313,7 +313,7 @@ class AsyncNode(Node):
         concurrent: bool = False,
         callback_group: CallbackGroup | None = None,
     ) -> Service:
-        """Create a service; see `Node.create_service`.
+        """Create a service. See `Node.create_service`.
 
         Args:
             srv_type: Class of the service.
@@ -329,27 +329,27 @@ class AsyncNode(Node):
         return super().create_service(srv_type, srv_name, callback, qos_profile=qos_profile, callback_group=group)
 
     def create_client(self, srv_type: Any, srv_name: str, **options: Any) -> AsyncClient:
-        """Create a service client, whose `call` is awaited; see `Node.create_client`."""
+        """Create a service client, whose `call` is awaited. See `Node.create_client`."""
         self.__check("client")
         client: AsyncClient = super().create_client(srv_type, srv_name, **options)  # type: ignore[assignment]
         return client
 
     def create_timer(self, timer_period_sec: float, callback: Callable[..., Any], *words: Any, **options: Any) -> Timer:
-        """Create a timer; see `Node.create_timer`. A period is skipped while the callback of an earlier one runs."""
+        """Create a timer. See `Node.create_timer`. A period is skipped while the callback of an earlier one runs."""
         self.__check("timer")
         if not words and options.get("callback_group") is None:
             options["callback_group"] = MutuallyExclusiveCallbackGroup()
         return super().create_timer(timer_period_sec, callback, *words, **options)
 
     def create_action_client(self, action_type: Any, action_name: str, **options: Any) -> AsyncActionClient:
-        """Create an action client, whose `send_goal` and `wait_for_server` are awaited; see `ActionClient`."""
+        """Create an action client, whose `send_goal` and `wait_for_server` are awaited. See `ActionClient`."""
         self.__check("action client")
         return AsyncActionClient(self, action_type, action_name, **options)
 
     def create_action_server(
         self, action_type: Any, action_name: str, execute_callback: Callable[..., Any], **options: Any
     ) -> ActionServer:
-        """Create an action server; see `ActionServer`. Goals are executed concurrently."""
+        """Create an action server. See `ActionServer`. Goals are executed concurrently."""
         self.__check("action server")
         return ActionServer(self, action_type, action_name, execute_callback, **options)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Name under which libraries import upstream's native module; see `rclpy._rclpy_pybind11`."""
+"""Name under which libraries import upstream's native module. See `rclpy._rclpy_pybind11`."""
 
 from rclpy import _rclpy_pybind11 as rclpy_implementation
 

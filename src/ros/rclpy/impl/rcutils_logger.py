@@ -127,15 +127,15 @@ class RcutilsLogger:
         return True
 
     def debug(self, message: object, **kwargs: Any) -> bool:
-        """Log a message with severity DEBUG; see `log`."""
+        """Log a message with severity DEBUG. See `log`."""
         return self.log(message, LoggingSeverity.DEBUG, **kwargs)
 
     def info(self, message: object, **kwargs: Any) -> bool:
-        """Log a message with severity INFO; see `log`."""
+        """Log a message with severity INFO. See `log`."""
         return self.log(message, LoggingSeverity.INFO, **kwargs)
 
     def warning(self, message: object, **kwargs: Any) -> bool:
-        """Log a message with severity WARN; see `log`."""
+        """Log a message with severity WARN. See `log`."""
         return self.log(message, LoggingSeverity.WARN, **kwargs)
 
     def warn(self, message: object, **kwargs: Any) -> bool:
@@ -143,11 +143,11 @@ class RcutilsLogger:
         return self.log(message, LoggingSeverity.WARN, **kwargs)
 
     def error(self, message: object, **kwargs: Any) -> bool:
-        """Log a message with severity ERROR; see `log`."""
+        """Log a message with severity ERROR. See `log`."""
         return self.log(message, LoggingSeverity.ERROR, **kwargs)
 
     def fatal(self, message: object, **kwargs: Any) -> bool:
-        """Log a message with severity FATAL; see `log`."""
+        """Log a message with severity FATAL. See `log`."""
         return self.log(message, LoggingSeverity.FATAL, **kwargs)
 
     def __call_site(self, frame: FrameType, severity: LoggingSeverity, name: str, options: dict[str, Any]) -> _CallSite:

@@ -73,19 +73,19 @@ class LifecycleNodeMixin(ManagedEntity):
         return self.__change_state("configure")
 
     def trigger_cleanup(self) -> TransitionCallbackReturn:
-        """Undo the configuration of an inactive node; see `trigger_configure`."""
+        """Undo the configuration of an inactive node. See `trigger_configure`."""
         return self.__change_state("cleanup")
 
     def trigger_shutdown(self) -> TransitionCallbackReturn:
-        """Finalize the node; see `trigger_configure`."""
+        """Finalize the node. See `trigger_configure`."""
         return self.__change_state("shutdown")
 
     def trigger_activate(self) -> TransitionCallbackReturn:
-        """Activate an inactive node; see `trigger_configure`."""
+        """Activate an inactive node. See `trigger_configure`."""
         return self.__change_state("activate")
 
     def trigger_deactivate(self) -> TransitionCallbackReturn:
-        """Deactivate an active node; see `trigger_configure`."""
+        """Deactivate an active node. See `trigger_configure`."""
         return self.__change_state("deactivate")
 
     def add_managed_entity(self, entity: ManagedEntity) -> None:

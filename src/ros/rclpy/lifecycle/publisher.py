@@ -20,7 +20,7 @@ class LifecyclePublisher(SimpleManagedEntity, Publisher):
 
     @SimpleManagedEntity.when_enabled
     def publish(self, msg: Any) -> None:
-        """Publish a message; do nothing unless the node is active."""
+        """Publish a message. Do nothing unless the node is active."""
         Publisher.publish(self, msg)
 
 

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/rmw_dds_common/msg; do not edit.
-"""Messages of rmw_dds_common; each class is created when it is first used."""
+"""Messages of rmw_dds_common. Each class is created when it is first used."""
 
 from coframe.messages.packages import shipped_exports
 

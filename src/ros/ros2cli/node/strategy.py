@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node that a command uses. ros2cli asks its daemon if there is one; coframe has no daemon."""
+"""The node that a command uses. ros2cli asks its daemon if there is one. coframe has no daemon."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["NodeStrategy", "add_arguments"]
 
 
 class NodeStrategy(DirectNode):
-    """A context manager with a node; see `DirectNode`."""
+    """A context manager with a node. See `DirectNode`."""
 
     @property
     def direct_node(self) -> NodeStrategy:

@@ -29,7 +29,7 @@ def get_topic_names(*, node: Node, include_hidden_topics: bool = False) -> list[
 
 
 def get_msg_class(node: Node, topic: str, blocking: bool = False, include_hidden_topics: bool = False) -> Any:
-    """Return the class of the messages on a topic; None if the topic does not exist.
+    """Return the class of the messages on a topic, or None if the topic does not exist.
 
     Args:
         node: A node in the graph.

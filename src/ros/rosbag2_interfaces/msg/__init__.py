@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/rosbag2_interfaces/msg; do not edit.
-"""Messages of rosbag2_interfaces; each class is created when it is first used."""
+"""Messages of rosbag2_interfaces. Each class is created when it is first used."""
 
 from coframe.messages.packages import shipped_exports
 

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/service_msgs/msg; do not edit.
-"""Messages of service_msgs; each class is created when it is first used."""
+"""Messages of service_msgs. Each class is created when it is first used."""
 
 from coframe.messages.packages import shipped_exports
 

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/turtlesim/action; do not edit.
-"""Actions of turtlesim; each class is created when it is first used."""
+"""Actions of turtlesim. Each class is created when it is first used."""
 
 from coframe.messages.packages import shipped_exports
 

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/turtlesim/srv; do not edit.
-"""Services of turtlesim; each class is created when it is first used."""
+"""Services of turtlesim. Each class is created when it is first used."""
 
 from coframe.messages.packages import shipped_exports
 

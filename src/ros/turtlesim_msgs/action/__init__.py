@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/turtlesim_msgs/action; do not edit.
-"""Actions of turtlesim_msgs; each class is created when it is first used."""
+"""Actions of turtlesim_msgs. Each class is created when it is first used."""
 
 from coframe.messages.packages import shipped_exports
 

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/type_description_interfaces/srv; do not edit.
-"""Services of type_description_interfaces; each class is created when it is first used."""
+"""Services of type_description_interfaces. Each class is created when it is first used."""
 
 from coframe.messages.packages import shipped_exports
 

@@ -57,7 +57,7 @@ class RunningProcessEvent(Event):
 
     @property
     def cwd(self) -> str | None:
-        """The working directory; None for the one of this process."""
+        """The working directory, or None for the one of this process."""
         return self.__cwd
 
     @property
