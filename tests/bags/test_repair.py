@@ -174,7 +174,7 @@ def test_rejected_transforms_and_damaged_messages_are_removed(tmp_path):
     report = repair(source, tmp_path / "new")
     assert len(report.problems) == 3
     assert report.remaining == []
-    assert "/tf: 1 invalid transform removed, which tf2 rejects" in report.changes
+    assert "/tf: 1 transform removed that tf2 rejects as invalid" in report.changes
     assert "/tf: 1 damaged message skipped" in report.changes
     assert "/tf_static: 1 static transform of moving frames removed" in report.changes
     with coframe.open_bag(tmp_path / "new") as bag:

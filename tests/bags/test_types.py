@@ -260,7 +260,7 @@ def test_definitions_have_limits_together(tmp_path, monkeypatch):
     recording = coframe.open_bag(tmp_path / "a.mcap")
     decoded = [next(recording.messages(topic)).message for topic in recording.topics]
     assert sum(isinstance(message, bytes) for message in decoded) == 10
-    assert "have more than 210 fields" in recording.problems[-1]
+    assert "exceed the maximum of 210 fields" in recording.problems[-1]
 
 
 def test_one_unusable_definition_affects_its_topic_only(tmp_path):
@@ -275,7 +275,7 @@ def test_one_unusable_definition_affects_its_topic_only(tmp_path):
     assert next(recording.messages("/bad")).message == b"\0\1\0\0\7\0\0\0"
     recordings.assert_same(recording.buffer)
     (problem,) = recording.problems
-    assert problem.endswith("(line 2: a shift by 30000000000 bits; the number of bits must be from 0 to 63)")
+    assert problem.endswith("(line 2: a value is shifted by 30000000000 bits; the number of bits must be from 0 to 63)")
     shown = json.loads(
         subprocess.run(
             [Path(sys.executable).with_name("coframe"), "bag", "info", "--json", path],

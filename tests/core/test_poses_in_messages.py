@@ -97,7 +97,7 @@ def test_batches_fill_lists():
     assert {each.header.frame_id for each in (path, *path.poses)} == {"map"}
     assert Transform(path) == batch
     assert len(batch.to_msg(PoseArray, "odom", 5).poses) == 2
-    with pytest.raises(ValueError, match="PoseStamped has no place for a batch"):
+    with pytest.raises(ValueError, match="PoseStamped cannot contain a batch"):
         batch.to_msg(PoseStamped)
 
 

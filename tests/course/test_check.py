@@ -244,10 +244,10 @@ def test_errors_are_sentences(tmp_path):
         (["lab", "check", str(tmp_path), "--only", "statics"], "unknown criterion statics"),
         (["lab", "check", str(tmp_path), "--all"], "No submissions"),
         (["lab", "check", str(tmp_path), "--all", "--gradescope", "x.json"], "apply to a single folder"),
-        (["lab", "check", str(tmp_path), "-o", "x.csv"], "writes the table of a class"),
+        (["lab", "check", str(tmp_path), "-o", "x.csv"], "writes the grades of a class"),
         (["lab", "run", str(tmp_path)], "contains none of the files"),
         (["lab", "break", "3", "--answer", "gremlins"], "is not the name of a fault"),
-        (["lab", "break", "3", "--answer", "degrees"], "That is not the fault"),
+        (["lab", "break", "3", "--answer", "degrees"], "The answer is wrong"),
     ):
         result = CliRunner().invoke(app, words)
         assert result.exit_code in {1, 2}

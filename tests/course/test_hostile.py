@@ -70,11 +70,11 @@ SLOW = {
         "other = Node('lab_check')\np = other.create_publisher(Clock, '/clock', 10)\nrclpy.spin(node)",
         "publishes on /clock",
     ),
-    "publishes without pausing": (
+    "publishes without a pause": (
         NODE + "from tf2_msgs.msg import TFMessage\nimport threading\np = node.create_publisher(TFMessage, '/tf', 10)\n"
         "def flood():\n    while True: p.publish(TFMessage())\n"
         "threading.Thread(target=flood, daemon=True).start()\nrclpy.spin(node)",
-        "publishes without pausing",
+        "publishes without a pause",
     ),
 }
 # Writes a report to all files and pipes of the grader that it can open.

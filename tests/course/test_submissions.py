@@ -81,7 +81,7 @@ def test_a_hard_link_belongs_to_no_one(classroom):
     found = grades(classroom)
     assert found["mallory"][0] == found["alice"][0] == 0
     report = check_folder(classroom / "mallory", only=("urdf",))
-    assert "another name outside the folder" in report["criteria"][0]["facts"][0]["observed"]
+    assert "another name of the same file is outside the folder" in report["criteria"][0]["facts"][0]["observed"]
 
 
 def test_links_inside_a_folder_are_followed(tmp_path):

@@ -443,7 +443,7 @@ def test_sensor_messages_that_arrive_after_the_cache_length(only):
     for i in range(100):
         run.scan(later(i / 10), arrived=later(i / 10 + 15))
     finding = only(run, "TF015")
-    assert "but a buffer keeps transforms for only 10 s" in finding.text
+    assert "but a buffer stores transforms for only 10 s" in finding.text
     assert "cache_time=Duration(seconds=16)" in finding.fix
 
 

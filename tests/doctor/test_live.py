@@ -202,7 +202,7 @@ def test_a_pause_does_not_enlarge_the_arrays_of_transforms(domain_id, eventually
             tf.publish(message)
         time.sleep(0.2)
         listening.poll()
-        capacity = len(listening._collector._moving._columns["stamp"])
+        capacity = len(listening._collector._dynamic_rows._columns["stamp"])
         assert capacity < 2000, "old rows and new ones were stored at the same time"
 
 

@@ -229,7 +229,7 @@ def test_requests_that_a_service_does_not_answer_are_bounded(
         "Requests of /switch are dropped: 3 wait for the node, or 5 for an answer."
     ]
     ros_peer("call", "/switch", "std_srvs/srv/SetBool", b"\x09\x09\0\0\1".hex())
-    eventually(lambda: "not a request of rmw_zenoh_cpp" in caplog.text)
+    eventually(lambda: "was not sent by rmw_zenoh_cpp" in caplog.text)
     assert waiting() == [6, 7, 8, 9, 10]
 
 

@@ -33,7 +33,7 @@ def test_a_package_of_types_is_created_and_used(run, tmp_path, monkeypatch):
     monkeypatch.setenv("COFRAME_INTERFACES", str(tmp_path))
     assert run("interface", "show", "tutorial_kinds/msg/Num") == "int64 num\n"
     words = ("pkg", "create", "--build-type", "ament_cmake", "more", "--node-name", "a")
-    assert "creates no C++ programs" in run(*words, code=2)
+    assert "cannot create C++ programs" in run(*words, code=2)
     assert "Types: ament_python, ament_cmake" in run("pkg", "create", "--build-type", "cmake", "more", code=2)
 
 
