@@ -557,8 +557,8 @@ def test_an_unknown_size(run):
 
 def test_an_empty_file():
     with FileServer({"/run.mcap": b""}) as server:
-        assert "it is empty (0 bytes)" in failure(server.url())
-    assert "it is empty (0 bytes)" in failure(b"")
+        assert "the file is empty (0 bytes)" in failure(server.url())
+    assert "the file is empty (0 bytes)" in failure(b"")
 
 
 def test_a_web_page():

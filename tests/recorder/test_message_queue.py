@@ -14,7 +14,7 @@ def message(source, received, size=800):
 def test_messages_are_taken_in_the_order_of_arrival():
     queue = MessageQueue(1 << 20)
     for i, source in enumerate([TF, STATIC, STATIC, TF, STATIC, TF]):
-        queue.put(message(source, i))
+        queue.add_message(message(source, i))
     assert [entry.received for entry in queue.take(0.0, 2500)] == [0, 1, 2]
     assert [entry.received for entry in queue.take(0.0, 1 << 20)] == [3, 4, 5]
     assert queue.size == 0
@@ -23,9 +23,9 @@ def test_messages_are_taken_in_the_order_of_arrival():
 
 def test_a_full_queue_drops_the_oldest_messages_that_are_not_latched():
     queue = MessageQueue(5000)
-    queue.put(message(STATIC, 0))
+    queue.add_message(message(STATIC, 0))
     for i in range(1, 20):
-        queue.put(message(TF, i))
+        queue.add_message(message(TF, i))
     assert queue.size <= 5000
     assert [entry.received for entry in queue.take(0.0, 1 << 20)] == [0, 16, 17, 18, 19]
     assert queue.dropped == {"/tf": 15}
@@ -34,14 +34,14 @@ def test_a_full_queue_drops_the_oldest_messages_that_are_not_latched():
 def test_a_full_queue_of_latched_messages_drops_the_oldest():
     queue = MessageQueue(5000)
     for i in range(20):
-        queue.put(message(STATIC, i))
+        queue.add_message(message(STATIC, i))
     assert [entry.received for entry in queue.take(0.0, 1 << 20)] == [15, 16, 17, 18, 19]
     assert queue.dropped == {"/tf_static": 15}
 
 
 def test_a_single_message_larger_than_the_limit_is_kept():
     queue = MessageQueue(100)
-    queue.put(message(TF, 1, size=10_000))
+    queue.add_message(message(TF, 1, size=10_000))
     assert len(queue.take(0.0, 1)) == 1
     queue.close()
     assert queue.is_done

@@ -77,7 +77,7 @@ def test_a_demo_with_several_robots_of_which_one_stops(command, ros, eventually,
     assert states == {"robot1": "live", "robot2": "stale"}, text
     assert ("relay: robot2" in text) == own_topics
     at_end = newest("robot1")
-    eventually(lambda: not any(one.present for one in ros.publishers()))
+    eventually(lambda: not any(one.is_present for one in ros.publishers()))
     assert newest("robot1") - at_end < 10**9
 
 

@@ -140,7 +140,7 @@ def test_transforms_that_another_program_truncates_raise_an_error(size):
         thread = threading.Thread(target=publish_all)
         thread.start()
         writer.buffer.wait("map", "base0")
-        assert writer._receiver.transforms.writes
+        assert writer._receiver.transforms.is_writer
         program = [sys.executable, "-c", textwrap.dedent(reader)]
         process = subprocess.Popen(program, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         process.stdout.readline()

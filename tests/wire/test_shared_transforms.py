@@ -103,7 +103,7 @@ def receiver(domain_id):
 
 def test_another_process_reads_without_a_subscription(receiver, domain_id):
     reader = Reader(domain_id)
-    assert reader("ros.shared and not ros._receiver.transforms.writes")
+    assert reader("ros.shared and not ros._receiver.transforms.is_writer")
     assert reader("ros._participant is None")
     assert reader("ros.buffer.frame_names()") == ["base", "map"]
     assert reader("'base' in str(ros.buffer.why('map', 'base'))")
@@ -120,13 +120,13 @@ def test_another_process_reads_without_a_subscription(receiver, domain_id):
 def test_another_process_takes_over_when_the_writer_is_killed(domain_id, eventually):
     with broadcasting(domain_id) as ros:
         writer, reader = Reader(domain_id), Reader(domain_id)
-        assert writer("ros._receiver.transforms.writes")
+        assert writer("ros._receiver.transforms.is_writer")
         stored = reader("ros.buffer.lookup('map', 'base').stamp")
         os.kill(writer.process.pid, signal.SIGKILL)
         writer.process.communicate()
         assert reader(f"ros.buffer.lookup('map', 'base', {stored}).x") == 3.0
         assert reader("ros.buffer.wait('map', 'base', time.time_ns() + 100_000_000, timeout='30s').x") == 3.0
-        eventually(lambda: reader("ros._receiver.transforms.writes"))
+        eventually(lambda: reader("ros._receiver.transforms.is_writer"))
         assert reader("ros._receiver.transforms.writer_process") == reader.process.pid
         reader.end()
         assert ros is not None
@@ -206,7 +206,7 @@ def test_a_hub_receives_for_the_others(domain_id, eventually):
         hub.send_signal(signal.SIGINT)
         hub.communicate(timeout=30)
         assert hub.returncode == 0
-        eventually(lambda: ros._receiver.transforms.writes)
+        eventually(lambda: ros._receiver.transforms.is_writer)
 
 
 def publish_statics(broadcaster, *children):
@@ -247,9 +247,9 @@ def test_statics_of_a_publisher_that_has_ended_are_withdrawn(receiver, eventuall
     node = receiver.participant.add_node("/", "statics")
     publish_statics(receiver.participant.static_broadcaster(node), "lidar")
     assert receiver.buffer.wait("base", "lidar", timeout="30s").x == 1.0
-    assert not receiver._receiver.transforms.outdated
+    assert not receiver._receiver.transforms.is_outdated
     node.close()
-    eventually(lambda: receiver._receiver.transforms.outdated)
+    eventually(lambda: receiver._receiver.transforms.is_outdated)
     assert receiver.buffer.lookup("base", "lidar").x == 1.0
 
 
@@ -261,11 +261,11 @@ def test_statics_stay_published_when_another_process_takes_over(domain_id, start
         os.kill(writer.process.pid, signal.SIGKILL)
         writer.process.communicate()
         assert reader("ros.buffer.wait('map', 'base', time.time_ns() + 100_000_000, timeout='30s').x") == 3.0
-        eventually(lambda: reader("ros._receiver.transforms.writes"))
-        assert reader("ros._receiver.transforms.outdated") is False
+        eventually(lambda: reader("ros._receiver.transforms.is_writer"))
+        assert reader("ros._receiver.transforms.is_outdated") is False
         assert reader("ros.wait_for_statics('30s')")
         assert reader("[one.settle_statics() for one in ros._receiver.transforms.readers]") == [None, None]
-        assert reader("ros._receiver.transforms.outdated") is False
+        assert reader("ros._receiver.transforms.is_outdated") is False
 
 
 def hub_status(domain, *, code):
@@ -339,7 +339,7 @@ def test_memory_of_programs_that_have_ended_is_removed(tmp_path, domain_id, monk
     used = _core.Segment.open(str(folder), "232-used", 10**10)
     assert len(memory_of(232, folder)) == 2
     with coframe.connect("one", domain=domain_id, shared=True) as ros:
-        assert ros._receiver.transforms.writes
+        assert ros._receiver.transforms.is_writer
         assert [file.name.startswith("232-used") for file in memory_of(232, folder)] == [True]
     used.close()
 

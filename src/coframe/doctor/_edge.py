@@ -113,8 +113,8 @@ class Edge:
     @cached_property
     def rotations(self) -> NDArray[np.float64]:
         """(N, 4) unit quaternions."""
-        rotation_steps = self.values[:, 3:]
-        return np.asarray(rotation_steps / _lengths(rotation_steps)[:, None])
+        quaternions = self.values[:, 3:]
+        return np.asarray(quaternions / _lengths(quaternions)[:, None])
 
     def poses(self, rows: NDArray[np.intp]) -> NDArray[np.float64]:
         """Return the poses of given rows, (N, 7), with unit quaternions."""

@@ -53,7 +53,7 @@ def test_mistakes_are_sentences(run, monkeypatch):
     assert "ModuleNotFoundError: No module named 'no_such_module'" in absent
     wrong = run("component", "load", "box", "demo_nodes_py", "demo_nodes_py::Talker", "-p", "rate=3", code=2)
     assert "--parameter 'rate=3' is not NAME:=VALUE" in wrong
-    monkeypatch.setattr("coframe.cli.ros2.graph.TIMEOUT", 0.2)
+    monkeypatch.setattr("coframe.cli.ros2.graph.ENDPOINT_TIMEOUT", 0.2)
     assert "Unable to find container node '/bix'" in run("component", "list", "bix", code=1)
     assert run("component", "list", "box") == "", "nothing was loaded"
 

@@ -16,7 +16,7 @@ NODE = "/robot1/program"
 @pytest.fixture
 def impatient(monkeypatch):
     """Give up early on names that do not exist."""
-    monkeypatch.setattr("coframe.cli.ros2.graph.PATIENCE", 1.0)
+    monkeypatch.setattr("coframe.cli.ros2.graph.ENDPOINT_TIMEOUT", 1.0)
 
 
 def test_lists(run, listed):

@@ -179,7 +179,7 @@ def test_a_service_type_of_two_parts(run):
 
 
 def test_waiting_for_a_server_has_a_word_and_a_limit(run, monkeypatch):
-    monkeypatch.setattr("coframe.cli.ros2.calls.TIMEOUT", 0.2)
+    monkeypatch.setattr("coframe.cli.ros2.calls.ENDPOINT_TIMEOUT", 0.2)
     call = run("service", "call", "/swich", "std_srvs/srv/SetBool", "--timeout", "0.5s", code=1)
     assert "There is no service /swich yet: waiting for it. Did you mean '/switch'?" in call
     assert "There was no service /swich within 0.5s." in call
