@@ -330,7 +330,7 @@ def _print(reports: dict[str, Report]) -> None:
     for name, report in reports.items():
         if len(reports) > 1:
             console.print(Text(printable(f"{name or '/'}:"), style="bold"))
-        for line in _texts(report):
+        for line in _styled_lines(report):
             console.print(line)
 
 
@@ -355,8 +355,8 @@ def _require_plain_recording(bag: Readable | None, has_other_options: bool) -> N
         fail("--fix and --recipe concern the whole recording, as text: remove the options that change that", code=2)
 
 
-def _texts(report: Report) -> list[Text]:
-    every = [Text(one_line(line), style=_STYLES[style]) for style, line in lines(report)]
+def _styled_lines(report: Report) -> list[Text]:
+    every = [Text(one_line(line), style=_STYLES[style]) for style, line in report_lines(report)]
     every += [Text(f"recording: {one_line(problem)}", style="dim") for problem in report.observation.unread]
     return every
 

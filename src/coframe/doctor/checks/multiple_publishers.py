@@ -11,7 +11,7 @@ import numpy as np
 from coframe.doctor._finding import Finding, Severity
 from coframe.doctor._flicker import alternation_cause, flicker
 from coframe.doctor._rules import drop_tracks
-from coframe.doctor.pose_mistakes import explain_either
+from coframe.doctor.pose_mistakes import explain_mutual_difference
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -9,7 +9,7 @@ from coframe._output.formatting import times
 from coframe.doctor._edge import publishers_of
 from coframe.doctor._finding import Finding, Severity
 from coframe.doctor._rules import drop_edge
-from coframe.doctor.pose_mistakes import explain_either
+from coframe.doctor.pose_mistakes import explain_mutual_difference
 from coframe.frame_names import TF_STATIC_TOPIC, TF_TOPIC
 
 if TYPE_CHECKING:

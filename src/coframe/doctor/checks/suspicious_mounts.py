@@ -13,7 +13,7 @@ from coframe.analysis.static_command import static_command
 from coframe.doctor._camera_axes import is_optical, wrong_axes
 from coframe.doctor._finding import Finding, Severity
 from coframe.doctor._rules import replace_mount
-from coframe.doctor.pose_mistakes import angle_triples, described_rotation, inverted
+from coframe.doctor.pose_mistakes import all_rpy_angles, inverse_poses, rotation_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
