@@ -20,7 +20,7 @@ from coframe.bags._batch_engines import ENGINES, optional_module
 from coframe.bags._batch_parts import fingerprint, keep_if_of_query, part_of, previous_result, write_part
 from coframe.bags._batch_results import MANIFEST, MAX_OMISSIONS, Manifest, Omission, QueryResult, omissions_of
 from coframe.bags._narrowing import run_query
-from coframe.bags.recording import open_chosen
+from coframe.bags.recording import open_with_choice
 from coframe.bags.tables import TableQuery
 from coframe.bags.tables.columns import FieldSource, column, one_or_more
 from coframe.errors import CoframeError, ExtrapolationException, RecordingError, TransformException

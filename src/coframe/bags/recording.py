@@ -630,7 +630,7 @@ class Recording:
     def part(self, window: TimeWindow) -> Recording:
         """Return a part of a recording on a server, which is closed with this one."""
         if self._part is None or self._part.window != window:
-            self._part = open_chosen(self.path, self.choice, window=window)
+            self._part = open_with_choice(self.path, self.choice, window=window)
             self._part.disown()
         return self._part
 

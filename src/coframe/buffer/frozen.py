@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 from coframe import _core
 from coframe.buffer import Buffer
 from coframe.buffer._covariances import unpack
-from coframe.buffer._frozen_file import BLOCK_SIZE, Header, damaged, opened, read_covariances, read_header
+from coframe.buffer._frozen_file import BLOCK_SIZE, Header, damaged, open_file, read_covariances, read_header
 from coframe.buffer.dispatcher import Dispatcher
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ class FrozenBuffer(Buffer):
             self._use(memory, header, read_covariances(self._path, file, header))
             return
         self._path = self._path.absolute()
-        with opened(self._path) as opened_file:
+        with open_file(self._path) as opened_file:
             header = read_header(self._path, opened_file, os.fstat(opened_file.fileno()).st_size)
             covariances = read_covariances(self._path, opened_file, header)
             memory = self._copy_small_file(opened_file) or mmap.mmap(opened_file.fileno(), 0, access=mmap.ACCESS_READ)
