@@ -214,7 +214,7 @@ def test_a_joint_without_a_direction_does_not_move(kind):
 @pytest.mark.parametrize(
     ("version", "rpy", "warning"),
     [
-        ("1.0", [0, 0, 0], 'line 5: quat_xyzw is ignored, because it requires <robot version="1.1">'),
+        ("1.0", [0, 0, 0], 'line 5: quat_xyzw is ignored, because it needs <robot version="1.1">'),
         ("1.1", [0, 0, 3], None),
         ("1.2", [0, 0, 3], None),
         ("1.7", [0, 0, 3], "line 1: the version '1.7' is unknown. ROS reads the versions 1.0, 1.1 and 1.2"),
