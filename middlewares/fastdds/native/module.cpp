@@ -175,7 +175,8 @@ void define_participant(nb::module_& module) {
           [](const PyParticipant& self) { return values::take_changes<WithoutGil>(self.get().readers()); },
           "Return the changes of readers.")
       .def(
-          "take_participants", [](const PyParticipant& self) { return take_changes(self.get().participants()); },
+          "take_participants",
+          [](const PyParticipant& self) { return values::take_changes<WithoutGil>(self.get().participants()); },
           "Return the changes of participants.")
       .def(
           "take_ignored", [](const PyParticipant& self) { return self.get().take_ignored(); },
