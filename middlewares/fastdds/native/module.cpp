@@ -64,9 +64,7 @@ rtps::SampleIdentity to_identity(const nb::bytes& guid, std::int64_t sequence) {
   return identity;
 }
 
-nb::bytes to_bytes(Incoming message) {
-  return values::message_bytes<WithoutGil>(message.data(), message.size());
-}
+nb::bytes to_bytes(Incoming message) { return values::message_bytes<WithoutGil>(message.data(), message.size()); }
 
 // An object that is created and destroyed without the GIL.
 template <class Object>
