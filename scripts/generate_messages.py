@@ -117,7 +117,7 @@ def _classes_at_first_use(package: str, kind: str, paths: list[Path]) -> dict[Pa
     return {
         folder / "__init__.pyi": notice + stub(package, kind, definitions),
         folder / "__init__.py": notice
-        + f'''"""{KINDS[kind]} of {package}; each class is created when it is first used."""
+        + f'''"""{KINDS[kind]} of {package}. Each class is created when it is first used."""
 
 from coframe.messages.packages import shipped_exports
 

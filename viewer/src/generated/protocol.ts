@@ -75,7 +75,7 @@ export interface DisplayTopic {
   display: string;
 }
 
-/** Global options of an RViz configuration; null for those that are not set. */
+/** Global options of an RViz configuration, or null for those that are not set. */
 export interface RvizGlobalOptions {
   fixed_frame: string | null;
   background: number[] | null;
@@ -97,7 +97,7 @@ export interface RvizConfiguration {
 }
 
 /**
- * The first message. Sent again when the source or the origin changes; the page then starts from scratch.
+ * The first message. It is sent again when the source or the origin changes. The page then starts from scratch.
  *
  * The page compares `version` with its own. `mode` is "replay" only inside replay files. `fixed_is_given` is
  * true if an option or the .rviz file names the fixed frame, so that the page does not use the one of its last
@@ -145,7 +145,7 @@ export interface Tree {
 }
 
 /**
- * Statistics of one frame; null for values that do not apply.
+ * Statistics of one frame, or null for values that do not apply.
  *
  * `rate` is in Hz, `age` and `longest_gap` in seconds. The state of a root is "static".
  */
@@ -461,7 +461,7 @@ export interface PublishResult {
 }
 
 /**
- * A node that a program has added to the scene; its `NodeHeader` message follows if the node has a geometry.
+ * A node that a program has added to the scene. Its `NodeHeader` message follows if the node has a geometry.
  *
  * `frame` is the frame in which `pose` is expressed: a frame of the tree, "" for the fixed frame, or null for the
  * nearest node above this one by their names, which are paths (the fixed frame if there is none). `color` is null
@@ -532,7 +532,7 @@ export interface ProblemReport {
 }
 
 /**
- * The options with which the server prepares a display; numbers beyond a limit are clamped.
+ * The options with which the server prepares a display. Numbers beyond a limit are clamped.
  *
  * Attributes:
  *     color_by: The value shown by a point's color; null selects the best available one.
@@ -642,7 +642,7 @@ export interface PublishPose {
   covariance?: [number, number, number] | null;
 }
 
-/** Publishes another pose for an existing static transform; the quaternion x, y, z, w must be normalized. */
+/** Publishes another pose for an existing static transform. The quaternion x, y, z, w must be normalized. */
 export interface PublishStatic {
   type: "publish_static";
   parent: string;
@@ -657,7 +657,7 @@ export interface LoadRviz {
   text: string;
 }
 
-/** Requests an .rviz file with the contents of the page; other parts of the loaded configuration are preserved. */
+/** Requests an .rviz file with the contents of the page. Other parts of the loaded configuration are preserved. */
 export interface SaveRviz {
   type: "save_rviz";
   displays: RvizDisplay[];
@@ -692,7 +692,7 @@ export interface SetFrameTimeout {
   seconds: number;
 }
 
-/** Sets the number of frame updates per second, as "Frame Rate" of an .rviz file; the server sends at most 60. */
+/** Sets the number of frame updates per second, as "Frame Rate" of an .rviz file. The server sends at most 60. */
 export interface SetFrameRate {
   type: "frame_rate";
   /** Limited to 1 to 1000000. */
@@ -705,7 +705,7 @@ export interface RequestCodePage {
   code: string;
 }
 
-/** A curve under an id of the page's choice; the expression is one of `coframe plot`. */
+/** A curve under an id of the page's choice. The expression is one of `coframe plot`. */
 export interface CurveRequest {
   /** From 0 to 4294967295. */
   id: number;
@@ -717,7 +717,7 @@ export interface CurveRequest {
  *
  * Attributes:
  *     curves: The curves to show, in the order of the page.
- *     span: The part of a recording that the page shows; null for all of it.
+ *     span: The part of a recording that the page shows, or null for all of it.
  *     points: The maximum number of points of a curve; thinning preserves minima and maxima.
  */
 export interface SetCurves {
@@ -763,7 +763,7 @@ export interface RequestCompletions {
  *     frame: The fixed frame of the page.
  *     position: The point on the surface of the node, in the fixed frame.
  *     local: The same point in the coordinates of the node, as in the arrays of its geometry.
- *     index: The index of the point, the line or the triangle that was hit; null for other kinds of nodes.
+ *     index: The index of the point, the line or the triangle that was hit, or null for other kinds of nodes.
  */
 export interface ClickNode {
   type: "click";
@@ -775,7 +775,7 @@ export interface ClickNode {
   index?: number | null;
 }
 
-/** Presses a button, or changes the value of another widget; the field depends on its kind. */
+/** Presses a button, or changes the value of another widget. The field depends on its kind. */
 export interface UseWidget {
   type: "widget";
   /** From 0 to 4294967295. */
@@ -802,7 +802,7 @@ export interface FrameDrawn {
  *     counts: uint32: the number of drawings of each listing.
  *     sequences: uint32: the drawings of all listings.
  *     poses: float32[7]: the poses of their frames.
- *     stamps: float64: the stamps of these poses; NaN for the time of the listing.
+ *     stamps: float64: the stamps of these poses, or NaN for the time of the listing.
  */
 export interface ReplayDisplayBlock {
   topic: string;
@@ -995,10 +995,10 @@ export const BinaryKind = { frames: 1, cloud: 2, grid: 3, shapes: 4, image: 5, c
  */
 export const FrameState = { ok: 0, stale: 1, gone: 2, otherTree: 3 } as const;
 
-/** Flags of a cloud; the bits above 8 hold the thinning step. */
+/** Flags of a cloud. The bits above 8 hold the thinning step. */
 export const CloudFlag = { scalars: 1, colors: 2 } as const;
 
-/** The lowest eight bits of an image's format; the bits above 8 hold the thinning step. */
+/** The lowest eight bits of an image's format. The bits above 8 hold the thinning step. */
 export const ImageFormat = { gray: 0, rgb: 1, jpeg: 2, png: 3 } as const;
 
 /**

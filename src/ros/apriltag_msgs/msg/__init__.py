@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/apriltag_msgs/msg; do not edit.
-"""Messages of apriltag_msgs; each class is created when it is first used."""
+"""Messages of apriltag_msgs. Each class is created when it is first used."""
 
 from coframe.messages.packages import shipped_exports
 

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/gazebo_msgs/srv; do not edit.
-"""Services of gazebo_msgs; each class is created when it is first used."""
+"""Services of gazebo_msgs. Each class is created when it is first used."""
 
 from coframe.messages.packages import shipped_exports
 

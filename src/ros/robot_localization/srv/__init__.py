@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/robot_localization/srv; do not edit.
-"""Services of robot_localization; each class is created when it is first used."""
+"""Services of robot_localization. Each class is created when it is first used."""
 
 from coframe.messages.packages import shipped_exports
 

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/ros_gz_interfaces/msg; do not edit.
-"""Messages of ros_gz_interfaces; each class is created when it is first used."""
+"""Messages of ros_gz_interfaces. Each class is created when it is first used."""
 
 from coframe.messages.packages import shipped_exports
 

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/turtlebot3_msgs/srv; do not edit.
-"""Services of turtlebot3_msgs; each class is created when it is first used."""
+"""Services of turtlebot3_msgs. Each class is created when it is first used."""
 
 from coframe.messages.packages import shipped_exports
 

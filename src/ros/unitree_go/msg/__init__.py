@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/unitree_go/msg; do not edit.
-"""Messages of unitree_go; each class is created when it is first used."""
+"""Messages of unitree_go. Each class is created when it is first used."""
 
 from coframe.messages.packages import shipped_exports
 
