@@ -2,10 +2,13 @@
 """`coframe contract`: exit codes, the formats that CI systems read, the running system, and the pytest fixture."""
 
 import json
+import os
 import subprocess
 import sys
+import sysconfig
 import threading
 import time
+from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
@@ -16,6 +19,8 @@ import coframe
 from coframe.cli.app import app
 from coframe.contract import Result, Verdict
 from coframe.contract.rendering import as_annotations, as_junit, as_markdown
+
+ROOT = Path(__file__).parents[2]
 
 
 def run(*words, code):
@@ -147,3 +152,27 @@ def test_the_fixture_of_pytest(files):
     done = subprocess.run(command, cwd=files, capture_output=True, text=True, check=False)
     assert "1 failed, 1 passed" in done.stdout, done.stdout
     assert "the frame 'lidar' was not published. Did you mean 'lidra'?" in done.stdout
+
+
+def test_the_workflow_of_the_examples_runs_as_it_stands(files):
+    """Its steps that are commands, except the installation, in a repository with recordings and a contract."""
+    yaml = pytest.importorskip("yaml", reason="the workflow is YAML")
+    workflow = yaml.safe_load((ROOT / "examples" / "ci" / "contract.yml").read_text(encoding="utf-8"))
+    install, check = (step["run"] for step in workflow["jobs"]["contract"]["steps"] if "run" in step)
+    assert install == "pip install 'coframe[bags,cli]'"
+    (files / "recordings").mkdir()
+    summary = files / "summary.md"
+    environment = {
+        **os.environ,
+        "GITHUB_STEP_SUMMARY": str(summary),
+        "PATH": f"{sysconfig.get_path('scripts')}{os.pathsep}{os.environ['PATH']}",
+    }
+    for name, code in (("good", 0), ("broken", 1)):
+        (files / f"{name}.mcap").rename(files / "recordings" / f"{name}.mcap")
+        done = subprocess.run(
+            ["bash", "-c", check], cwd=files, env=environment, capture_output=True, text=True, check=False
+        )
+        assert done.returncode == code, done.stderr
+    assert "::error file=recordings/broken.mcap,title=transform base_link -> lidar::" in done.stdout
+    assert summary.read_text().startswith("## Contract: 1 of 2 kept\n")
+    assert (files / "contract.xml").exists()
