@@ -89,7 +89,8 @@ def test_robots_with_the_same_names_are_an_error_with_the_ways_out(same, tmp_pat
     code, said = merge(*same, "-o", tmp_path / "both")
     assert (code, (tmp_path / "both").exists()) == (1, False)
     assert "were recorded at the same time, and 2 names would be mixed up: frame base, topic /scan" in said
-    assert all(way in said for way in ("--prefix robot1/ --prefix robot2/", "--namespace /robot1", "--join"))
+    assert "Give each recording a prefix for its frames and topics, such as robot1/, or a namespace" in said
+    assert "join the names" in said
     assert merge(*same, "-o", tmp_path / "both", "--join")[0] == 0
 
 

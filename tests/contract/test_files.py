@@ -130,7 +130,7 @@ def test_a_misspelt_key_is_suggested():
 def test_files_that_cannot_be_read(tmp_path):
     with pytest.raises(ContractError, match="No such file"):
         read_contract(tmp_path / "none.yaml")
-    with pytest.raises(ContractError, match="it is a folder"):
+    with pytest.raises(ContractError, match="is a folder, not a file"):
         read_contract(tmp_path)
 
 

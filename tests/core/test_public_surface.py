@@ -62,6 +62,7 @@ BUFFER = {
     "all_frames_as_dot",
     "all_frames_as_string",
     "all_frames_as_yaml",
+    "frames_with_covariance",
     "cache_ns",
     "can_transform",
     "chain",

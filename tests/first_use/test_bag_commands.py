@@ -38,7 +38,7 @@ def test_merge_is_in_the_order_of_receipt(tmp_path):
     rows = recordings.messages()
     one = recordings.write_mcap(tmp_path / "one.mcap", rows=rows[::2])
     two = recordings.write_mcap(tmp_path / "two.mcap", rows=rows[1::2])
-    code, out = run("bag", "merge", one, two, "-o", tmp_path / "both")
+    code, out = run("bag", "merge", one, two, "-o", tmp_path / "both", "--join")
     assert code == 0, out
     with coframe.open_bag(tmp_path / "both") as recording:
         recordings.assert_same(recording.buffer)

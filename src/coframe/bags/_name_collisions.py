@@ -60,8 +60,8 @@ def require_one_robot_per_name(
             raise RecordingError(
                 f"{recordings[one].path} and {recordings[other].path} were recorded at the same time, and "
                 f"{count(len(found), 'name')} would be mixed up: {join_names(found)}",
-                hint="Keep the robots apart with --prefix robot1/ --prefix robot2/ or with --namespace /robot1 "
-                "--namespace /robot2, or join what is of one robot with --join.",
+                hint="Give each recording a prefix for its frames and topics, such as robot1/, or a namespace for its "
+                "topics, such as /robot1. If all of them are of one robot, join the names.",
             )
 
 

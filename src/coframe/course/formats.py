@@ -6,6 +6,8 @@ from __future__ import annotations
 import textwrap
 from typing import TYPE_CHECKING, Any
 
+from coframe.course.submitted import MISSING_FILE
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -53,7 +55,7 @@ def _total_line(report: dict[str, Any]) -> str:
 
 def _is_skipped(criterion: dict[str, Any]) -> bool:
     """Return whether a criterion is an extension that the student has not attempted."""
-    return bool(criterion["bonus"]) and criterion["problem"].startswith("The file does not exist")
+    return bool(criterion["bonus"]) and criterion["problem"].startswith(MISSING_FILE)
 
 
 def _points_text(item: dict[str, Any]) -> str:

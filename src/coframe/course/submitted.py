@@ -13,7 +13,9 @@ from coframe.errors import CourseError
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["MAX_BYTES", "check_outputs", "check_submitted", "is_submitted", "read_submitted"]
+__all__ = ["MAX_BYTES", "MISSING_FILE", "check_outputs", "check_submitted", "is_submitted", "read_submitted"]
+
+MISSING_FILE = "There is no file"  # the beginning of the problem of a criterion whose file was not submitted
 
 MAX_BYTES: Final = 1 << 20  # many times the largest file of the lab
 _MAX_LISTED = 10_000  # maximum number of files examined for hard links

@@ -265,7 +265,7 @@ class McapEditor:
         topic = self._routes[number].topic
         if topic is None:
             return None
-        old, position = mcap.read_text(content, 4)
+        old, position = mcap.text_at(content, 4)
         new = content if topic == old else content[:4] + mcap.encoded_text(topic) + content[position:]
         self._channels[number] = new
         return new
@@ -333,7 +333,7 @@ class McapEditor:
         if opcode == mcap.METADATA:
             content = self._edit_metadata(self._content(file, length))
             self._out.write(mcap.record(opcode, content))
-            self._out.end_indexed(mcap.METADATA_INDEX, after=mcap.encoded_text(mcap.read_text(content, 0)[0]))
+            self._out.end_indexed(mcap.METADATA_INDEX, after=mcap.encoded_text(mcap.text_at(content, 0)[0]))
             return
         self._out.write(mcap.RECORD.pack(opcode, length))
         beginning = b""
@@ -351,7 +351,7 @@ class McapEditor:
     def _edit_metadata(self, content: bytes) -> bytes:
         """Return the content of a metadata record, in which rosbag2 repeats its metadata.yaml."""
         try:
-            name, position = mcap.read_text(content, 0)
+            name, position = mcap.text_at(content, 0)
             values = mcap.read_map(content, position)
         except (struct.error, ValueError):
             raise DamagedError("a metadata record is damaged") from None
@@ -366,7 +366,7 @@ class McapEditor:
         )
 
     def _channel_topic(self, number: int) -> str:
-        return mcap.read_text(self._channels[number], 4)[0]
+        return mcap.text_at(self._channels[number], 4)[0]
 
     def _finish(self) -> None:
         for number, count in self._counts.items():
@@ -388,8 +388,8 @@ class McapEditor:
 def _attachment_facts(content: bytes) -> bytes:
     """Return what the index repeats of an attachment."""
     try:
-        name, position = mcap.read_text(content, 16)
-        media_type, position = mcap.read_text(content, position)
+        name, position = mcap.text_at(content, 16)
+        media_type, position = mcap.text_at(content, position)
         (size,) = struct.unpack_from("<Q", content, position)
     except (struct.error, ValueError):
         raise DamagedError("an attachment is damaged") from None

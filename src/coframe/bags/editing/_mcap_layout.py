@@ -47,8 +47,8 @@ __all__ = [
     "read_head",
     "read_map",
     "read_summary",
-    "read_text",
     "record",
+    "text_at",
 ]
 
 HEADER, FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, MESSAGE_INDEX, CHUNK_INDEX = range(1, 9)
@@ -111,8 +111,8 @@ class Definitions:
         if self.schema_records.get(number) == content:
             return
         try:
-            name, position = read_text(content, 2)
-            kind, position = read_text(content, position)
+            name, position = text_at(content, 2)
+            kind, position = text_at(content, position)
             (length,) = struct.unpack_from("<I", content, position)
         except (struct.error, ValueError):
             raise DamagedError("a schema is damaged") from None
@@ -132,8 +132,8 @@ class Definitions:
             return None
         try:
             _, schema = struct.unpack_from("<HH", content)
-            topic, position = read_text(content, 4)
-            encoding, position = read_text(content, position)
+            topic, position = text_at(content, 4)
+            encoding, position = text_at(content, position)
             metadata = read_map(content, position)
         except (struct.error, ValueError):
             raise DamagedError("a channel is damaged") from None
@@ -227,7 +227,7 @@ def read_chunk(content: bytes) -> Chunk:
     """
     try:
         first, last, size, crc = _CHUNK_HEAD.unpack_from(content)
-        compression, position = read_text(content, _CHUNK_HEAD.size)
+        compression, position = text_at(content, _CHUNK_HEAD.size)
         (length,) = struct.unpack_from("<Q", content, position)
     except (struct.error, ValueError):
         raise DamagedError("the header of a chunk is damaged") from None
@@ -257,7 +257,7 @@ def encoded_map(values: dict[str, str]) -> bytes:
     return struct.pack("<I", len(content)) + content
 
 
-def read_text(data: bytes, position: int) -> tuple[str, int]:
+def text_at(data: bytes, position: int) -> tuple[str, int]:
     """Return the string at a position, and the position of its end.
 
     Raises:
@@ -278,8 +278,8 @@ def read_map(data: bytes, position: int) -> dict[str, str]:
     end = position + length
     found = {}
     while position < end:
-        key, position = read_text(data, position)
-        found[key], position = read_text(data, position)
+        key, position = text_at(data, position)
+        found[key], position = text_at(data, position)
     return found
 
 

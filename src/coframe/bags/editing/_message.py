@@ -11,7 +11,7 @@ from coframe.bags._message_fields import FrameFields, StampFields
 from coframe.bags.editing._transform_bytes import RecordedTransform, join_transforms, split_transforms
 from coframe.bags.transforms import is_static
 from coframe.messages.encapsulation import BYTE_ORDERS
-from coframe.type_names import TF_MESSAGE
+from coframe.type_names import is_tf_message
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -91,7 +91,7 @@ class EditedTopic:
     @property
     def has_transforms(self) -> bool:
         """Whether the messages are TFMessages, which rules edit transform by transform."""
-        return self.channel.encoding == "cdr" and self.channel.type in {TF_MESSAGE, "tf2_msgs/TFMessage"}
+        return self.channel.encoding == "cdr" and is_tf_message(self.channel.type)
 
     @cached_property
     def frames(self) -> FrameFields | None:

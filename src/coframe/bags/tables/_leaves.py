@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from coframe.bags.tables.columns import Key
+from coframe.errors import CoframeError
 from coframe.messages.definition import (
     AbstractGenericString,
     AbstractNestedType,
@@ -63,7 +64,7 @@ DTYPES: dict[str, np.dtype[Any]] = {name: np.dtype(name) for name in _INTEGERS} 
 _OBJECT = np.dtype(object)
 
 
-class MissingElementError(LookupError):
+class MissingElementError(CoframeError, LookupError):
     """A message has no element with an index or a name."""
 
 

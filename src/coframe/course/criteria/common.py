@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from coframe.course._program import StudentProgram
-from coframe.course.submitted import check_submitted, is_submitted
+from coframe.course.submitted import MISSING_FILE, check_submitted, is_submitted
 from coframe.errors import CoframeError, CourseError
 from coframe.robots.files import expand_xacro
 from coframe.robots.xacro_process import MAX_SECONDS
@@ -140,7 +140,7 @@ def expanded_xacro(task: Task, file: Path) -> tuple[str, str]:
 def _file_problem(folder: Path, name: str) -> str:
     """Return why a program cannot be started, or "" if it can."""
     if not is_submitted(folder, name):
-        return f"There is no file {name}."
+        return f"{MISSING_FILE} {name}."
     try:
         check_submitted(folder / name)
     except CourseError as error:

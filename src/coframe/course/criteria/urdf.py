@@ -9,7 +9,7 @@ from coframe.course._motion import SimulatedRobot
 from coframe.course._sheet import Sheet
 from coframe.course.criteria.common import Task, difference_text, expanded_xacro
 from coframe.course.rubric import RUBRIC
-from coframe.course.submitted import is_submitted, read_submitted
+from coframe.course.submitted import MISSING_FILE, is_submitted, read_submitted
 from coframe.errors import CoframeError
 from coframe.robots.urdf import parse_urdf
 
@@ -28,7 +28,7 @@ def check(task: Task) -> Sheet:
     names = [name for name in _FILES if is_submitted(task.folder, name)]
     sheet = Sheet.of(RUBRIC["urdf"])
     description: Description | None = None
-    problem, attempt = f"There is no file {sheet.file}.", ""
+    problem, attempt = f"{MISSING_FILE} {sheet.file}.", ""
     if names:
         sheet.file = names[0]
         file = task.folder / sheet.file

@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import Any
 
+from coframe._process.python_children import python_command
 from launch_testing.actions.test import Test
 
 __all__ = ["PyTest"]
@@ -23,6 +23,4 @@ class PyTest(Test):
 
     def __init__(self, *, path: Any, timeout: float | None = None, **options: Any) -> None:
         output = Path("test_results", f"{Path(str(path)).stem}.xunit.xml")
-        super().__init__(
-            cmd=[sys.executable, "-m", "pytest", path, f"--junit-xml={output}"], timeout=timeout, **options
-        )
+        super().__init__(cmd=[*python_command("pytest"), path, f"--junit-xml={output}"], timeout=timeout, **options)

@@ -3,19 +3,12 @@
 
 from __future__ import annotations
 
-import sys
 from typing import Any
 
+from coframe._process.python_children import python_command
 from launch.actions import ExecuteProcess
 
 __all__ = ["KeepAliveProc"]
-
-# It ends with exit code 0 on SIGINT, or on Ctrl-Break on Windows; otherwise after 12 days.
-_PROGRAM = (
-    "import os, signal, time; "
-    "signal.signal(getattr(signal, 'SIGBREAK', signal.SIGINT), lambda *_: os._exit(0)); "
-    "time.sleep(2**20)"
-)
 
 
 class KeepAliveProc(ExecuteProcess):
@@ -26,4 +19,5 @@ class KeepAliveProc(ExecuteProcess):
     """
 
     def __init__(self, **options: Any) -> None:
-        super().__init__(**{"cmd": [sys.executable, "-S", "-c", _PROGRAM], "name": "keep_alive", **options})
+        command = python_command("coframe._process.python_children.keep_alive")
+        super().__init__(**{"cmd": command, "name": "keep_alive", **options})
