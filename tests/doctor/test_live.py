@@ -174,7 +174,9 @@ def test_transforms_and_messages_beyond_the_limits_are_reported(domain_id, event
             tf.publish(transforms(transforms=[link]))
             rates.publish(reading)
             listening.poll()
-            return [finding.text for finding in diagnose(listening.observe()).findings if "too many" in finding.text]
+            return [
+                finding.text for finding in diagnose(listening.observe()).findings if "memory limit" in finding.text
+            ]
 
         eventually(lambda: len(found()) == 2)
         since, incomplete = found()

@@ -174,5 +174,5 @@ def test_clients_and_servers_of_a_service(make_node, wait_until):
     assert (served.service_type, str(served.service_type_hash)) == ("std_srvs/srv/SetBool", type_hash(SetBool))
     assert f"Service type hash: {type_hash(SetBool)}\nEndpoint type: SERVER\nEndpoint count: " in str(served)
     assert user.get_servers_info_by_service("/other") == []
-    with pytest.raises(ValueError, match="service name 'a//b' is invalid"):
+    with pytest.raises(ValueError, match="topic name 'a//b' is invalid"):
         user.get_servers_info_by_service("a//b")

@@ -380,7 +380,9 @@ def test_a_port_in_use_is_an_error_unless_it_is_the_default(view):
         assert get(second.url)[0] == 200
 
 
-@pytest.mark.parametrize(("options", "reason"), [({"host": "x" * 70}, "not an address"), ({"port": 70_000}, "0-65535")])
+@pytest.mark.parametrize(
+    ("options", "reason"), [({"host": "x" * 70}, "does not have that address"), ({"port": 70_000}, "0-65535")]
+)
 def test_addresses_that_cannot_exist_are_errors(options, reason):
     with pytest.raises(coframe.ViewerError, match=reason):
         coframe.show(small_buffer(), **options)

@@ -149,6 +149,7 @@ def options():
 OTHER_COMMANDS = {
     "bag burst",
     "bag convert",
+    "bag edit",
     "bag list",
     "bag merge",
     "bag reindex",

@@ -226,7 +226,7 @@ def test_requests_that_a_service_does_not_answer_are_bounded(
     eventually(lambda: waiting() == [6, 7, 8, 9, 10])
     eventually(lambda: requests._endpoint.dropped == 5)
     assert [record.message for record in caplog.records] == [
-        "Requests of /switch are dropped: 3 wait for the node, or 5 for an answer."
+        "Requests of /switch are dropped: 3 wait for the node, or 5 for a response."
     ]
     ros_peer("call", "/switch", "std_srvs/srv/SetBool", b"\x09\x09\0\0\1".hex())
     eventually(lambda: "was not sent by rmw_zenoh_cpp" in caplog.text)

@@ -47,10 +47,16 @@ def to_parameters_list(
 
 
 def _read(file: str, node: str) -> list[ParameterMessage]:
-    from rclpy.parameter import parameter_dict_from_yaml_file  # noqa: PLC0415 - slow to import
+    import rclpy.parameter  # noqa: PLC0415 - slow to import
 
+    read = getattr(rclpy.parameter, "parameter_dict_from_yaml_file", None)
+    if read is None:  # in a sourced Humble
+        raise RuntimeError(
+            f"{file} cannot be passed to a container: the rclpy of this ROS has no parser of parameter files. Give the "
+            f"parameters as a dictionary."
+        )
     try:
-        return list(parameter_dict_from_yaml_file(file, use_wildcard=True, target_nodes=[node]).values())
+        return list(read(file, use_wildcard=True, target_nodes=[node]).values())
     except RuntimeError as error:
         if "does not contain any valid parameters" in str(error):  # It contains those of other nodes.
             return []
