@@ -38,6 +38,7 @@ ALLOWED = {
     "coframe.bags._cloud_files": OWN_FILES,
     "coframe.bags._sqlite_database": "checks the file and its journals before SQLite opens them by name",
     "coframe.bags._sqlite_writer": "writes a new file",
+    "coframe.bags.editing._sqlite_editor": "writes a new file",
     "coframe.cli.hub": "opens shared memory",
     "coframe.cli.shell_completion": PROC,
     "coframe.cli.ros2.installing": "the list of files of the installed package",

@@ -23,6 +23,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, NoReturn
 from urllib.parse import SplitResult, quote, unquote, urljoin, urlsplit
 
+from coframe._base_error import CoframeError
 from coframe._sources.block_cache import BLOCK
 from coframe._sources.remote_error import RemoteFileError
 from coframe._sources.urls import HTTP, without_credentials
@@ -67,7 +68,7 @@ class _Answer(NamedTuple):
     version: tuple[str, ...]  # the headers that change with the file
 
 
-class _BrokenError(Exception):
+class _BrokenError(CoframeError):
     """A response that ended too early or is invalid; the request may be repeated."""
 
 

@@ -8,11 +8,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import launch_testing.tools
+from coframe._files.regular_files import read_regular_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
 __all__ = ["basic_output_filter", "get_rmw_output_filter"]
+
+MAX_FILTER_BYTES = 1 << 20
 
 
 def get_rmw_output_filter(rmw_implementation: str, filter_type: str) -> list[str]:
@@ -33,7 +36,7 @@ def get_rmw_output_filter(rmw_implementation: str, filter_type: str) -> list[str
     for folder in folders:
         file = Path(folder, f"rmw_output_{filter_type}.txt")
         if file.is_file():
-            return file.read_text(encoding="utf-8").splitlines()
+            return read_regular_text(file, MAX_FILTER_BYTES).splitlines()
     return []
 
 
