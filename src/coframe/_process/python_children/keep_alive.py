@@ -7,5 +7,6 @@ import time
 
 _MAX_LIFETIME = 1 << 20  # seconds, 12 days
 
-signal.signal(getattr(signal, "SIGBREAK", signal.SIGINT), lambda *_: os._exit(0))
-time.sleep(_MAX_LIFETIME)
+if __name__ == "__main__":
+    signal.signal(getattr(signal, "SIGBREAK", signal.SIGINT), lambda *_: os._exit(0))
+    time.sleep(_MAX_LIFETIME)
