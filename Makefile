@@ -48,7 +48,7 @@ build-split: $(STAMP) ## compile each source file of the native core separately,
 demo: $(DEMO_STAMP) ## show the lab's moving transform tree, live in the browser and the terminal
 	@$(BIN)/coframe demo $(ARGS)
 
-test: $(STAMP) ## run the test suite (under 6 minutes)
+test: $(STAMP) ## run the test suite (about ten minutes on two cores)
 	$(PYTEST) --numprocesses 4 --dist loadfile --no-loadscope-reorder $(ARGS)
 
 test-zenoh: $(STAMP) ## run the tests of the running graph over Zenoh instead of DDS (those of routers configure Zenoh themselves)

@@ -765,6 +765,7 @@ print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="resource")
 def test_memory_does_not_grow_with_the_recording(tmp_path):
     small, large = stream(tmp_path / "small", 30), stream(tmp_path / "large", 300)

@@ -311,6 +311,7 @@ def test_a_reader_that_fails_to_open_a_block_asks_for_the_messages_themselves(do
     assert blocks() == 0
 
 
+@pytest.mark.slow
 def test_clouds_of_40_mb_reach_another_process(start) -> None:
     process = start("fastdds", "large_messages.py", HUGE, 20)
     output, _ = process.communicate(timeout=120)

@@ -15,9 +15,10 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["child_environment", "pass_to_children", "python_command", "python_environment"]
+__all__ = ["child_environment", "keep_alive_command", "pass_to_children", "python_command", "python_environment"]
 
 _START_SCRIPT = str(Path(__file__).with_name("start.py"))
+_KEEP_ALIVE_SCRIPT = str(Path(__file__).with_name("keep_alive.py"))
 # Variables that would make a process without a terminal wait for input, or run a file at startup or exit.
 _OMITTED_VARIABLES = ("PYTHONINSPECT", "PYTHONSTARTUP")
 _PATH_VARIABLE = "PYTHONPATH"
@@ -56,6 +57,11 @@ def python_command(module: str, *arguments: str) -> list[str]:
         arguments: The arguments after it.
     """
     return [sys.executable, _START_SCRIPT, module, *arguments]
+
+
+def keep_alive_command() -> list[str]:
+    """Return the command of a process that does nothing until SIGINT, and is soon ready for it."""
+    return [sys.executable, "-I", "-S", _KEEP_ALIVE_SCRIPT]
 
 
 def python_environment(base: Mapping[str, str] | None = None) -> dict[str, str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from coframe._process.python_children import python_command
+from coframe._process.python_children import keep_alive_command
 from launch.actions import ExecuteProcess
 
 __all__ = ["KeepAliveProc"]
@@ -19,5 +19,4 @@ class KeepAliveProc(ExecuteProcess):
     """
 
     def __init__(self, **options: Any) -> None:
-        command = python_command("coframe._process.python_children.keep_alive")
-        super().__init__(**{"cmd": command, "name": "keep_alive", **options})
+        super().__init__(**{"cmd": keep_alive_command(), "name": "keep_alive", **options})
