@@ -12,8 +12,8 @@ from launch_pytest.tools import process as process_tools
 
 PROGRAM = """
 import signal, sys, time
-print("hello", *sys.argv[1:], flush=True)
 signal.signal(signal.SIGINT, lambda *_: (print("the end"), sys.exit(0)))
+print("hello", *sys.argv[1:], flush=True)
 time.sleep(60)
 """
 
