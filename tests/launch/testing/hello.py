@@ -16,9 +16,9 @@ from launch.substitutions import LaunchConfiguration
 
 PROGRAM = """
 import signal, sys, time
+signal.signal(signal.SIGINT, lambda *_: (print("the end"), sys.exit(0)))
 print("hello", *sys.argv[1:], flush=True)
 print("a warning", file=sys.stderr, flush=True)
-signal.signal(signal.SIGINT, lambda *_: (print("the end"), sys.exit(0)))
 time.sleep(60)
 """
 
