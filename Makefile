@@ -4,6 +4,7 @@ VENV ?= .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.ready
 DEMO_STAMP := $(VENV)/.demo_ready
+LINT_STAMP := $(VENV)/.lint_ready
 NATIVE := $(shell find native -name '*.cpp' -o -name '*.hpp' -o -name '*.inc') CMakeLists.txt
 # For scripts that need the standard library only.
 ANY_PYTHON = $(if $(wildcard $(BIN)/python),$(BIN)/python,python3)
@@ -15,7 +16,7 @@ PYTEST := env -u PYTHONDONTWRITEBYTECODE PYTHONPYCACHEPREFIX=$(CURDIR)/build/pyc
 BUILD_TOOLS = $(shell sed -n 's/^requires = \[\(.*\)\]/\1/p' pyproject.toml | sed 's/", "/" "/g')
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build build-split demo test test-zenoh test-fastdds test-shared test-slow test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint licenses audit typecheck format conformance bench generate page page-check clean
+.PHONY: help setup build build-split demo test test-zenoh test-fastdds test-shared test-slow test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint licenses audit typecheck format conformance bench generate generate-check page page-check clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -30,6 +31,11 @@ $(DEMO_STAMP): pyproject.toml scripts/make_venv.sh $(NATIVE)
 $(STAMP): pyproject.toml scripts/make_venv.sh $(NATIVE)
 	@VENV=$(VENV) sh scripts/make_venv.sh dev
 	@touch $(DEMO_STAMP) $@
+
+# The linters read the sources and need nothing that is compiled.
+$(LINT_STAMP): pyproject.toml scripts/make_venv.sh
+	@[ -e $(STAMP) ] || VENV=$(VENV) sh scripts/make_venv.sh lint
+	@touch $@
 
 setup: $(STAMP) ## create the virtual environment with everything in it, and build the native core
 
@@ -126,13 +132,15 @@ docs: $(VENV)/.docs ## build the documentation site into build/site and check it
 conformance: $(STAMP) ## check tf2's semantics case by case
 	@$(BIN)/python conformance/run.py $(ARGS)
 
-lint: $(STAMP) ## check style, words, import directions and generated files
+lint: $(LINT_STAMP) ## check style, words, licenses of files and import directions
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	git ls-files '*.cpp' '*.hpp' '*.inc' | xargs $(BIN)/clang-format --dry-run --Werror
 	$(BIN)/python scripts/check_words.py
 	$(BIN)/python scripts/check_spdx.py
 	$(BIN)/python scripts/check_imports.py
+
+generate-check: $(STAMP) ## check that generated files are what their generators write
 	$(BIN)/python scripts/generate_messages.py --check
 	$(BIN)/python scripts/generate_distributions.py --check
 	$(BIN)/python scripts/generate_protocol.py --check

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Create the project's virtual environment and build the project into it.
 #
+#   make_venv.sh lint   the linters only, without compiling anything
 #   make_venv.sh demo   what the demo needs: the core, DDS, the viewer, the command line, URDF
 #   make_venv.sh dev    everything: the demo's packages, all other extras, tests and linters
 #
@@ -45,10 +46,10 @@ if [ -z "$python" ]; then
     echo "       On Debian or Ubuntu: sudo apt-get install python3-venv python3-dev" >&2
     exit 1
 fi
-if ! command -v "${CXX:-c++}" >/dev/null 2>&1; then
+if [ "$purpose" != lint ] && ! command -v "${CXX:-c++}" >/dev/null 2>&1; then
     install_with_apt g++
 fi
-if ! command -v "${CXX:-c++}" >/dev/null 2>&1; then
+if [ "$purpose" != lint ] && ! command -v "${CXX:-c++}" >/dev/null 2>&1; then
     echo "setup: found no C++ compiler. On Debian or Ubuntu: sudo apt-get install g++" >&2
     exit 1
 fi
@@ -64,13 +65,20 @@ if [ ! -x "$venv/bin/python" ]; then
         "$python" -m venv "$venv"
     fi
 fi
-if [ "$purpose" = dev ] && ! has_pip "$venv/bin/python"; then
+if [ "$purpose" != demo ] && ! has_pip "$venv/bin/python"; then
     "$venv/bin/python" -m ensurepip --default-pip >/dev/null
 fi
 if has_pip "$venv/bin/python"; then
     pip() { "$venv/bin/python" -m pip --quiet --disable-pip-version-check "$@"; }
 else
     pip() { "$python" -m pip --python "$venv/bin/python" --quiet --disable-pip-version-check "$@"; }
+fi
+
+if [ "$purpose" = lint ]; then
+    echo "setup: installing the linters" >&2
+    # shellcheck disable=SC2046  # one word for each requirement of the extra dev in pyproject.toml
+    pip install $(sed -n 's/^ *"\(\(ruff\|clang-format\|import-linter\)[^" ]*\)".*/\1/p' pyproject.toml)
+    exit 0
 fi
 
 recent_cmake() {
@@ -83,7 +91,7 @@ recent_cmake || tools="$tools cmake>=3.24"
 case $purpose in
     demo) extras="dds,viewer,robots,cli" ;;
     dev) extras="dev" ;;
-    *) echo "setup: unknown purpose '$purpose': use demo or dev" >&2; exit 2 ;;
+    *) echo "setup: unknown purpose '$purpose': use lint, demo or dev" >&2; exit 2 ;;
 esac
 echo "setup: installing packages for $purpose, then compiling coframe" >&2
 # Python compiles each module when it is first imported, so pip need not compile all of them now.
