@@ -50,6 +50,8 @@ def test_exit_codes(files):
     unreadable = run("check", files / "empty.mcap", files / "broken.mcap", files / "good.mcap", *contract, code=2)
     assert "empty.mcap: " in unreadable
     assert "good.mcap: 6 of 6 requirements are met" in unreadable
+    unwritable = ("--junit", files / "none" / "contract.xml")
+    assert "cannot be written" in run("check", files / "good.mcap", *contract, *unwritable, code=2)
     assert "Derive a contract from a good recording" in run(
         "check", files / "good.mcap", "-c", files / "no.yaml", code=2
     )
@@ -138,6 +140,11 @@ def test_the_running_system(files, domain_id):
         thread.join()
     assert "live: 4 of 5 requirements are met" in printed, printed
     assert "topic /scan: there is no such topic" in printed
+
+
+def test_a_graph_that_cannot_be_joined_is_not_a_broken_contract(files, monkeypatch):
+    monkeypatch.setenv("ROS_DOMAIN_ID", "abc")
+    assert "ROS_DOMAIN_ID is 'abc'" in run("check", "live", "-c", files / "contract.yaml", code=2)
 
 
 def test_the_fixture_of_pytest(files):

@@ -142,6 +142,33 @@ def test_a_topic_that_is_missing_or_slow_or_of_another_type(contract, tmp_path):
     assert "its messages are in no frame, not in lidar" in found
 
 
+def test_what_cannot_be_checked_is_said(contract, tmp_path):
+    """The recordings of these tests contain no QoS, and damaged bytes are not examined."""
+    strict = parse_contract("topics: [{name: /scan, reliable: true}]")
+    verdict = check_recording(strict, Run.healthy(seconds=2).write(tmp_path))
+    assert verdict.is_kept
+    assert verdict.unchecked == ("topic /scan: reliable: the QoS of its publishers is unknown",)
+    assert "  not checked: topic /scan: reliable: the QoS of its publishers is unknown" in verdict.text()
+    path = Run.healthy(seconds=4).write(tmp_path)
+    path.write_bytes(path.read_bytes()[:-2000])  # a recorder that was killed
+    verdict = check_recording(contract, path)
+    assert verdict.unchecked
+    assert "not checked: " in verdict.text()
+
+
+def test_the_frame_of_joint_states(tmp_path):
+    """Their header has a frame, although the doctor does not examine them as sensor data."""
+    run = Run.healthy(seconds=2)
+    states = find("sensor_msgs/msg/JointState")(name=["arm"], position=[0.0])
+    states.header.frame_id = "base_link"
+    for i in range(20):
+        run.message("/joint_states", "sensor_msgs/msg/JointState", states, START + i * SECOND // 10)
+    path = run.write(tmp_path)
+    for frame, expected in (("base_link", ()), ("arm", ("its messages are in base_link, not in arm",))):
+        required = parse_contract(f"topics: [{{name: /joint_states, frame: {frame}}}]")
+        assert check_recording(required, path).results[0].problems == expected
+
+
 def test_scans_whose_transform_comes_late(contract, tmp_path):
     run = Run.healthy(seconds=4, skip={"odom"})
     for i in range(200):

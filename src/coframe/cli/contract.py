@@ -38,7 +38,7 @@ from coframe.contract import (
     read_contract,
 )
 from coframe.contract.rendering import as_annotations, as_data, as_junit, as_markdown, as_sarif
-from coframe.errors import ContractError
+from coframe.errors import ContractError, WireError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -139,8 +139,8 @@ def check(
 ) -> None:
     """Check the recordings BAG... against a contract; `live` checks the running system.
 
-    The exit code is 0 if all recordings keep the contract, 1 if one breaks it, and 2 if one or the contract cannot be
-    read.
+    The exit code is 0 if all recordings keep the contract, 1 if one breaks it, and 2 if a recording or the contract
+    cannot be read, or a report cannot be written.
 
     Example: coframe contract check runs/*.mcap -c contract.yaml --junit contract.xml
     """
@@ -191,15 +191,18 @@ def _live(required: Contract, choice: TransformChoice, duration: PositiveDuratio
 
     if Console(stderr=True).is_terminal:
         click.echo(f"observing for {duration} ...", err=True)
-    config = ListenerConfig.of(
-        domain=domain,
-        namespace=choice.namespace,
-        tf_topic=choice.tf_topic,
-        tf_static_topic=choice.tf_static_topic,
-        prefix=choice.prefix,
-        keep=choice.keep,
-    )
-    measurement = measure_live(config, duration.seconds, [each.name for each in required.topics])
+    try:
+        config = ListenerConfig.of(
+            domain=domain,
+            namespace=choice.namespace,
+            tf_topic=choice.tf_topic,
+            tf_static_topic=choice.tf_static_topic,
+            prefix=choice.prefix,
+            keep=choice.keep,
+        )
+        measurement = measure_live(config, duration.seconds, [each.name for each in required.topics])
+    except WireError as error:
+        return Verdict.of_error(_LIVE, error)
     return Verdict(_LIVE, tuple(check_contract(required, measurement)))
 
 
@@ -209,4 +212,4 @@ def _write(path: Path | None, content: bytes) -> None:
     try:
         write_complete(path, content)
     except OSError as error:
-        fail_to_write(path, error)
+        fail_to_write(path, error, code=_UNREADABLE)

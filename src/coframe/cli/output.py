@@ -47,10 +47,10 @@ def fail(text: str, hint: str = "", *, code: int = 1, details: str = "") -> NoRe
     raise Exit(code)
 
 
-def fail_to_write(path: Path | None, error: OSError) -> NoReturn:
+def fail_to_write(path: Path | None, error: OSError, *, code: int = 1) -> NoReturn:
     """End the command because a file (or, without a path, standard output) could not be written."""
     name = "standard output" if path is None else path
-    fail(f"{name} cannot be written: {error.strerror or error}", writing_advice(error))
+    fail(f"{name} cannot be written: {error.strerror or error}", writing_advice(error), code=code)
 
 
 def with_doctor_command(hint: str) -> str:

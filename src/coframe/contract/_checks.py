@@ -23,7 +23,7 @@ if TYPE_CHECKING:
         TopicRequirement,
         TransformRequirement,
     )
-    from coframe.contract._measurement import Measurement, Pace
+    from coframe.contract._measurement import MeasuredTopic, Measurement, Pace
     from coframe.doctor.observation import Edge, Observation
 
 __all__ = ["Result", "check_contract"]
@@ -36,11 +36,13 @@ class Result(NamedTuple):
         kind: ``transform``, ``topic``, ``availability``, ``clock``, ``frames`` or ``finding``.
         subject: What the requirement is about, such as ``odom -> base_link`` or ``/scan``.
         problems: What is required and what is there instead, one sentence each; empty if the requirement is met.
+        unchecked: What could not be checked, and why, one sentence each.
     """
 
     kind: str
     subject: str
     problems: tuple[str, ...]
+    unchecked: tuple[str, ...] = ()
 
     @property
     def is_met(self) -> bool:
@@ -99,7 +101,9 @@ def _pose_problems(required: TransformRequirement, edge: Edge) -> Iterator[str]:
 
 
 def _topic(required: TopicRequirement, measurement: Measurement) -> Result:
-    return Result("topic", required.name, tuple(_topic_problems(required, measurement)))
+    topic = measurement.topics.get(required.name)
+    unchecked = () if topic is None else tuple(_unchecked(required, topic, measurement))
+    return Result("topic", required.name, tuple(_topic_problems(required, measurement)), unchecked)
 
 
 def _topic_problems(required: TopicRequirement, measurement: Measurement) -> Iterator[str]:
@@ -112,16 +116,41 @@ def _topic_problems(required: TopicRequirement, measurement: Measurement) -> Ite
         return
     if required.type and topic.type != required.type:
         yield f"its type is {topic.type}, not {required.type}"
-    if required.frame:
-        sensors = [each for one in measurement.observations.values() for each in one.sensors]
-        frames = sorted({each.frame for each in sensors if each.topic == required.name})
-        if frames != [required.frame]:
-            yield f"its messages are in {join_names(frames) or 'no frame'}, not in {required.frame}"
+    frames = _frames_of(required.name, measurement)
+    if required.frame and frames is not None and frames != [required.frame]:
+        yield f"its messages are in {join_names(frames) or 'no frame'}, not in {required.frame}"
     yield from _pace_problems(required.min_rate, required.max_gap, topic.pace)
     if required.reliable and topic.reliable is False:
         yield "a publisher is best effort, not reliable"
     if required.transient_local and topic.transient_local is False:
         yield "a publisher is volatile, not transient local: late subscriptions receive nothing"
+
+
+def _frames_of(topic: str, measurement: Measurement) -> list[str] | None:
+    """Return the frames of the messages on a topic; None if they are unknown."""
+    sensors = [each for one in measurement.observations.values() for each in one.sensors]
+    if frames := sorted({each.frame for each in sensors if each.topic == topic}):
+        return frames
+    frame = measurement.topics[topic].frame
+    return None if frame is None else [frame] if frame else []
+
+
+def _unchecked(required: TopicRequirement, topic: MeasuredTopic, measurement: Measurement) -> Iterator[str]:
+    """Yield what is required of a topic but unknown."""
+    unknown_qos = [
+        name
+        for name, is_required, offered in (
+            ("reliable", required.reliable, topic.reliable),
+            ("transient_local", required.transient_local, topic.transient_local),
+        )
+        if is_required and offered is None
+    ]
+    if unknown_qos:
+        yield f"{' and '.join(unknown_qos)}: the QoS of its publishers is unknown"
+    if required.max_gap is not None and topic.pace.messages and topic.pace.max_gap is None:
+        yield "max_gap: the times of its messages are unknown"
+    if required.frame and topic.pace.messages and _frames_of(required.name, measurement) is None:
+        yield "frame: the frames of its messages are unknown"
 
 
 def _pace_problems(min_rate: float | None, max_gap: int | None, pace: Pace) -> Iterator[str]:

@@ -48,11 +48,15 @@ class Pace:
 
 @dataclass(frozen=True)
 class MeasuredTopic:
-    """A topic, its pace, and the QoS that all its publishers offer; None where it is unknown."""
+    """A topic, its pace, the frame of its messages, and the QoS that all its publishers offer; None if unknown.
+
+    The frame is that of the first message, and "" if the message names none.
+    """
 
     name: str
     type: str
     pace: Pace
+    frame: str | None
     reliable: bool | None
     transient_local: bool | None
 
@@ -115,7 +119,7 @@ def measure_live(config: ListenerConfig, seconds: float, topics: Iterable[str]) 
             if name in arrivals:
                 pace = pace_of(np.sort(np.concatenate(arrivals[name])), end)
             offers = [(one.reliable, one.transient_local) for one in observer.publishers(name)]
-            measured[name] = MeasuredTopic(name, facts.type, pace, *_common(offers))
+            measured[name] = MeasuredTopic(name, facts.type, pace, None, *_common(offers))
     return Measurement({"": observation}, measured)
 
 
@@ -138,7 +142,11 @@ def _recorded(recording: Recording) -> dict[str, MeasuredTopic]:
     end = recording.received_end
     return {
         name: MeasuredTopic(
-            name, topic.type, pace_of(np.sort(recording.received(name)), end), *_common(offered.get(name, []))
+            name,
+            topic.type,
+            pace_of(np.sort(recording.received(name)), end),
+            recording.frame(recording.first_frame(name).lstrip("/")),
+            *_common(offered.get(name, [])),
         )
         for name, topic in recording.topics.items()
     }

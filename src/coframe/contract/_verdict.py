@@ -15,10 +15,13 @@ from coframe.errors import RecordingError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from typing_extensions import Self
+
     from coframe._sources.sources import Location
     from coframe.bags.namespaces import TransformChoice
     from coframe.contract._checks import Result
     from coframe.contract._contract import Contract
+    from coframe.errors import CoframeError
 
 __all__ = ["Verdict", "check_recording"]
 
@@ -30,11 +33,18 @@ class Verdict(NamedTuple):
         source: The path of the recording; ``live`` for the running system.
         results: The result of each requirement; empty if the recording cannot be read.
         unreadable: Why the recording cannot be read; "" if it can.
+        unread: What of the recording could not be read, and so was not checked.
     """
 
     source: str
     results: tuple[Result, ...]
     unreadable: str = ""
+    unread: tuple[str, ...] = ()
+
+    @classmethod
+    def of_error(cls, source: str, error: CoframeError) -> Self:
+        """Return the verdict for a recording that cannot be read, with the hint of the error."""
+        return cls(source, (), f"{error}. {error.hint}" if error.hint else str(error))
 
     @property
     def broken(self) -> tuple[Result, ...]:
@@ -46,13 +56,21 @@ class Verdict(NamedTuple):
         """Whether the recording can be read and meets all requirements."""
         return not self.unreadable and not self.broken
 
+    @property
+    def unchecked(self) -> tuple[str, ...]:
+        """What was not checked, and why, one sentence each."""
+        return self.unread + tuple(
+            f"{each.kind} {each.subject}: {reason}" for each in self.results for reason in each.unchecked
+        )
+
     def text(self) -> str:
-        """Return a summary and a line for each problem."""
+        """Return a summary, a line for each problem, and a line for each thing that was not checked."""
         if self.unreadable:
             return f"{self.source}: {one_line(self.unreadable)}"
         met = len(self.results) - len(self.broken)
         lines = [f"{self.source}: {met} of {len(self.results)} requirements are met"]
         problems = [f"{each.kind} {each.subject}: {problem}" for each in self.broken for problem in each.problems]
+        problems += [f"not checked: {each}" for each in self.unchecked]
         return "\n".join([*lines, *(f"  {one_line(problem)}" for problem in problems)])
 
 
@@ -75,5 +93,6 @@ def check_recording(
     try:
         measurement = measure_recording(path, choice, progress=progress)
     except RecordingError as error:
-        return Verdict(name, (), str(error))
-    return Verdict(name, tuple(check_contract(contract, measurement)))
+        return Verdict.of_error(name, error)
+    unread = dict.fromkeys(each for one in measurement.observations.values() for each in one.unread)
+    return Verdict(name, tuple(check_contract(contract, measurement)), unread=tuple(unread))

@@ -14,7 +14,7 @@ __all__ = ["as_annotations"]
 
 
 def as_annotations(verdicts: Iterable[Verdict]) -> Iterator[str]:
-    """Yield a line for each problem."""
+    """Yield a line for each problem, and for each thing that was not checked."""
     for verdict in verdicts:
         file = "" if verdict.source == "live" else f"file={_property(verdict.source)},"
         if verdict.unreadable:
@@ -23,6 +23,8 @@ def as_annotations(verdicts: Iterable[Verdict]) -> Iterator[str]:
             title = _property(f"{result.kind} {result.subject}")
             for problem in result.problems:
                 yield f"::error {file}title={title}::{_text(f'{result.subject}: {problem}')}"
+        for reason in verdict.unchecked:
+            yield f"::warning {file}title=not checked::{_text(reason)}"
 
 
 def _text(text: str) -> str:

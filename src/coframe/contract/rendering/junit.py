@@ -48,6 +48,9 @@ def _suite(verdict: Verdict) -> ElementTree.Element:
         if not result.is_met:
             text = _clean("\n".join(result.problems))
             ElementTree.SubElement(case, "failure", message=text.partition("\n")[0], type=result.kind).text = text
+    if verdict.unchecked:
+        lines = "\n".join(f"not checked: {each}" for each in verdict.unchecked)
+        ElementTree.SubElement(suite, "system-out").text = _clean(lines)
     if verdict.unreadable:
         case = ElementTree.SubElement(suite, "testcase", classname="contract.recording", name="can be read")
         ElementTree.SubElement(case, "error", message=_clean(verdict.unreadable), type="unreadable")

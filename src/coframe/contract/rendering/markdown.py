@@ -34,6 +34,9 @@ def as_markdown(verdicts: Sequence[Verdict]) -> str:
     problems += [
         f"| {_cell(each.source)} | recording | | {_cell(each.unreadable)} |" for each in verdicts if each.unreadable
     ]
+    problems += [
+        f"| {_cell(each.source)} | not checked | | {_cell(why)} |" for each in verdicts for why in each.unchecked
+    ]
     if problems:
         lines += ["", "| recording | requirement | subject | problem |", "|---|---|---|---|", *problems]
     return "\n".join(lines) + "\n"

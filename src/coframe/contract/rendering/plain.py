@@ -20,6 +20,7 @@ def as_data(verdicts: Iterable[Verdict]) -> list[dict[str, Any]]:
             "source": verdict.source,
             "kept": verdict.is_kept,
             "unreadable": verdict.unreadable or None,
+            "unchecked": list(verdict.unchecked),
             "requirements": [
                 {"kind": each.kind, "subject": each.subject, "met": each.is_met, "problems": list(each.problems)}
                 for each in verdict.results

@@ -25,6 +25,7 @@ _RULES = {
     "frames": "There are no other frames",
     "finding": "The doctor finds no problem",
     "unreadable": "The recording can be read",
+    "unchecked": "Each requirement can be checked",
 }
 
 
@@ -38,6 +39,7 @@ def as_sarif(verdicts: Iterable[Verdict]) -> dict[str, Any]:
 
 def _results(verdict: Verdict) -> list[dict[str, Any]]:
     found = [_result(verdict, result, problem) for result in verdict.broken for problem in result.problems]
+    found += [_entry(verdict, "unchecked", "", reason, level="note") for reason in verdict.unchecked]
     return [*found, _entry(verdict, "unreadable", "", verdict.unreadable)] if verdict.unreadable else found
 
 
@@ -45,7 +47,7 @@ def _result(verdict: Verdict, result: Result, problem: str) -> dict[str, Any]:
     return _entry(verdict, result.kind, result.subject, f"{result.subject}: {problem}")
 
 
-def _entry(verdict: Verdict, kind: str, subject: str, text: str) -> dict[str, Any]:
+def _entry(verdict: Verdict, kind: str, subject: str, text: str, *, level: str = "error") -> dict[str, Any]:
     location: dict[str, Any] = {}
     if verdict.source != "live":
         location["physicalLocation"] = {"artifactLocation": {"uri": file_uri(Path(verdict.source))}}
@@ -54,7 +56,7 @@ def _entry(verdict: Verdict, kind: str, subject: str, text: str) -> dict[str, An
     return {
         "ruleId": f"contract/{kind}",
         "ruleIndex": list(_RULES).index(kind),
-        "level": "error",
+        "level": level,
         "message": {"text": text},
         "locations": [location],
     }
