@@ -31,6 +31,8 @@ from coframe._sources.urls import HTTP, without_credentials
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from typing_extensions import Self
+
 __all__ = ["HttpRanges"]
 
 MAX_WAIT: Final = 30.0  # seconds without any byte from the server
@@ -268,9 +270,8 @@ class HttpRanges:
 
     def _pieces(self, answer: _Answer, size: int | None) -> Any:
         """Yield the body in pieces: exactly ``size`` bytes, or all if it is None."""
-        deadline = _Deadline(self._socket, size)
         left = size
-        try:
+        with _Deadline(self._socket, size) as deadline:
             while left is None or left > 0:
                 piece = answer.response.read1(_PIECE if left is None else min(left, _PIECE))
                 if not piece:
@@ -278,12 +279,6 @@ class HttpRanges:
                 deadline.add(len(piece))
                 left = None if left is None else left - len(piece)
                 yield piece
-        except _NETWORK_ERRORS as error:
-            if deadline.has_passed:
-                raise TimeoutError from error
-            raise
-        finally:
-            deadline.cancel()
         if left:
             raise _BrokenError(f"the server closed the connection after {(size or 0) - left} of {size} bytes")
         if left == 0 and answer.response.length == 0:
@@ -307,16 +302,9 @@ class HttpRanges:
         if connection.sock is None:
             connection.connect()
         self._socket = connection.sock  # The connection forgets it if the server closes it after the response.
-        deadline = _Deadline(self._socket, 0)
-        try:
+        with _Deadline(self._socket, 0):
             connection.request("GET", target, headers=headers)
             return connection.getresponse()
-        except _NETWORK_ERRORS as error:
-            if deadline.has_passed:
-                raise TimeoutError from error
-            raise
-        finally:
-            deadline.cancel()
 
     def _parse(self, url: str) -> SplitResult:
         """Return the parts of a URL."""
@@ -368,9 +356,14 @@ class _Deadline:
         if self._endless:
             self._timer.cancel()
 
-    def cancel(self) -> None:
-        """End the measurement."""
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, _kind: object, error: BaseException | None, _traceback: object) -> None:
+        """End the measurement; a network error after the deadline is a TimeoutError."""
         self._timer.cancel()
+        if self.has_passed and isinstance(error, _NETWORK_ERRORS):
+            raise TimeoutError from error
 
     def _pass(self) -> None:
         self.has_passed = True
