@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from recordings import START
-from runs import MS, SECOND, Run
+from runs import MS, SECOND, Run, stamp_message
 from scipy.spatial.transform import Rotation, Slerp
 
 import coframe
@@ -13,7 +13,7 @@ from coframe.cli.app import app
 from coframe.messages import find
 
 OFFSET = 3_600_120_000_000  # nanoseconds by which the second clock is behind
-IMU = "std_msgs/msg/UInt32"
+FIX, HEADER, COUNTER = "sensor_msgs/msg/NavSatFix", "std_msgs/msg/Header", "std_msgs/msg/UInt32"
 SECONDS = 25
 
 
@@ -50,7 +50,8 @@ def record(folder, *, clock=0, frames=("map", "base"), mount=None, turn=True, sh
         run.tf(*frames, stamp, (0.0, 0.0, 0.0), tuple((rotation * mount).as_quat()), arrived=at + MS)
     for number in range(100 if shared else 0):  # from a third computer: both receive the same bytes
         at = START + number * SECOND // 5 - clock
-        run.message("/beacon", IMU, find(IMU)(data=number), at + round(abs(rng.normal()) * MS / 2))
+        sent = find(FIX)(header=find(HEADER)(stamp=stamp_message(START + number * SECOND // 5), frame_id="sky"))
+        run.message("/beacon", FIX, sent, at + round(abs(rng.normal()) * MS / 2))
     folder.mkdir()
     return run.write(folder)
 
@@ -96,6 +97,20 @@ def test_equal_frames_that_turn_are_found_without_a_common_topic(tmp_path):
     assert "from the rotation of map:base" in said
 
 
+def test_equal_counters_of_two_robots_are_no_evidence(tmp_path):
+    """Both count from 0, one of them 7 s later: equal messages, but not the same ones."""
+    bags = []
+    for name, later in (("a", 0), ("b", 7 * SECOND)):
+        run = Run()
+        run.tf("map", f"robot_{name}", START, static=True)
+        for number in range(50):
+            run.message("/count", COUNTER, find(COUNTER)(data=number), START + number * SECOND // 10 + later)
+        (tmp_path / name).mkdir()
+        bags.append(run.write(tmp_path / name))
+    code, said = merge(tmp_path / "both", *bags, "--offset", "auto")
+    assert (code, "no common evidence of a time offset" in said) == (1, True)
+
+
 def test_simulated_stamps_are_not_shifted(tmp_path):
     bags = record(tmp_path / "a"), record(tmp_path / "b", frames=("map", "other"), clock=OFFSET, stamp_clock=SECOND)
     assert merge(tmp_path / "both", *bags, "--offset", "-1h")[0] == 0
@@ -125,4 +140,4 @@ def test_thin_evidence_is_refused(tmp_path, change, method, reason):
 def test_one_offset_is_given_for_each_recording_after_the_first(tmp_path):
     bag = record(tmp_path / "a")
     code, said = merge(tmp_path / "both", bag, bag, "--offset", "0s", "--offset", "1s")
-    assert (code, "--offset: give one for each of the 1 recordings after the first one" in said) == (2, True)
+    assert (code, "--offset: give 1, one for each recording after the first one" in said) == (2, True)

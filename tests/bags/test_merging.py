@@ -110,6 +110,8 @@ def test_namespaces_keep_the_frames_and_separate_the_topics(same, tmp_path):
         assert [bag.buffers[f"/robot{n}"].lookup("map", "lidar").translation[0] for n in (1, 2)] == [1.0, 2.0]
     code, said = merge(*same, "-o", tmp_path / "other", "--namespace", "/robot1")
     assert (code, "--namespace: give one for each of the 2 recordings" in said) == (2, True)
+    code, said = merge(*same, "-o", tmp_path / "other", "--namespace", "/a b", "--namespace", "/c")
+    assert (code, said) == (2, "coframe: --namespace: '/a b' is not a namespace such as /robot1\n")
     with pytest.raises(ValueError, match="is not a namespace"):
         copy_recordings(same, tmp_path / "other", namespaces=["/a b", ""])
 

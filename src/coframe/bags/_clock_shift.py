@@ -12,6 +12,7 @@ from coframe._output.formatting import count, did_you_mean, duration
 from coframe.errors import RecordingError, TrajectoryError, TransformException
 from coframe.time import DAY, MILLISECOND, SECOND
 from coframe.trajectories.motion_offset import motion_offset
+from coframe.type_names import is_tf_message
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -144,7 +145,8 @@ def _rotations(recording: Recording, frames: str) -> tuple[NDArray[np.int64], ND
 
 def _by_anything(first: Recording, second: Recording) -> ClockShift:
     """Use the topic with the most equal messages; without one, the frames that turn in both recordings."""
-    shared = [name for name, topic in first.topics.items() if topic.messages and name in second.topics]
+    # Two publishers can send equal messages, such as a counter. Equal stamps show that it was one publisher.
+    shared = [name for name, topic in first.topics.items() if topic.messages and _have_stamps(name, first, second)]
     counts = {name: len(_differences(first, second, name)) for name in shared}
     best = max(counts, key=lambda name: counts[name], default="")
     if best and counts[best] >= _MIN_EQUAL:
@@ -157,9 +159,16 @@ def _by_anything(first: Recording, second: Recording) -> ClockShift:
             reasons.append(str(error))
     reason = f"; {reasons[0]}" if reasons else ""
     raise RecordingError(
-        f"the recordings have no common evidence of a time offset: no topic has {_MIN_EQUAL} messages that both "
-        f"received{reason}",
+        f"the recordings have no common evidence of a time offset: no topic has {_MIN_EQUAL} messages with stamps that "
+        f"both received{reason}",
         hint="Name two frames of one body that turns: motion:map:base_link=world:camera.",
+    )
+
+
+def _have_stamps(topic: str, *recordings: Recording) -> bool:
+    return all(
+        topic in each.topics and (is_tf_message(each.topics[topic].type) or each.may_have_header(topic))
+        for each in recordings
     )
 
 

@@ -346,18 +346,23 @@ def merge(
         fail(f"--prefix: give one for each of the {len(bags)} recordings, in the same order", code=2)
     if namespaces and len(namespaces) != len(bags):
         fail(f"--namespace: give one for each of the {len(bags)} recordings, in the same order", code=2)
+    if offsets and len(bags) < 2:
+        fail("--offset needs at least two recordings", code=2)
     if offsets and len(offsets) != len(bags) - 1:
-        fail(f"--offset: give one for each of the {len(bags) - 1} recordings after the first one", code=2)
-    _copy(
-        bags,
-        output,
-        compression,
-        prefixes=prefixes or None,
-        keep=keep,
-        namespaces=namespaces or None,
-        offsets=[None, *offsets] if offsets else None,
-        join=join,
-    )
+        fail(f"--offset: give {len(bags) - 1}, one for each recording after the first one", code=2)
+    try:
+        _copy(
+            bags,
+            output,
+            compression,
+            prefixes=prefixes or None,
+            keep=keep,
+            namespaces=namespaces or None,
+            offsets=[None, *offsets] if offsets else None,
+            join=join,
+        )
+    except ValueError as error:  # of the namespaces
+        fail(f"--namespace: {error}", code=2)
 
 
 @bag.command("slice", short_help="Copy a time span or selected topics of a recording.")

@@ -26,7 +26,10 @@ _MAX_EDGES = 100_000
 
 
 class Rate(Rule):
-    """``rate /imu=10``: at most so many messages per second, by receive time; of transforms, of each child frame."""
+    """``rate /imu=10``: at most 10 messages per second by receive time.
+
+    For transforms, the rate is that of each child frame.
+    """
 
     name = "rate"
     form = "TOPIC=HZ"
