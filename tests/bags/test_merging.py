@@ -94,6 +94,19 @@ def test_robots_with_the_same_names_are_an_error_with_the_ways_out(same, tmp_pat
     assert merge(*same, "-o", tmp_path / "both", "--join")[0] == 0
 
 
+def test_robots_in_one_namespace_are_an_error_too(tmp_path):
+    bags = []
+    for name, x in (("a", 1.0), ("b", 2.0)):
+        run = Run()
+        for i in range(100):
+            at = START + i * SECOND // 50 + round(x * MS)
+            run.tf("map", "base", at, (x, i / 100, 0.0), arrived=at + MS, topic="/fleet/tf")
+        (tmp_path / name).mkdir()
+        bags.append(run.write(tmp_path / name))
+    code, said = merge(*bags, "-o", tmp_path / "both")
+    assert (code, "1 name would be mixed up: frame base" in said) == (1, True)
+
+
 def test_two_recorders_of_one_robot_are_joined(tmp_path):
     one = robot(tmp_path / "a", 1.0)
     assert merge(one, one, "-o", tmp_path / "both")[0] == 0

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe._output.formatting import count, join_names
-from coframe.bags._trajectory_query import TrajectoryQuery
+from coframe.bags._trajectory_query import sample_stamps
 from coframe.bags.transforms import ingest_for
 from coframe.errors import CoframeError, RecordingError
 from coframe.time import SECOND
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from coframe.bags._clock_shift import ClockShift
     from coframe.bags._merging import MergedNames
     from coframe.bags.recording import Recording
+    from coframe.buffer import Buffer
 
 __all__ = ["require_one_robot_per_name"]
 
@@ -71,28 +72,32 @@ def _span(recording: Recording, shift: ClockShift | None) -> tuple[int, int]:
 
 
 def _frames(recordings: Sequence[Recording], merged: MergedNames, one: int, other: int) -> Iterator[str]:
-    """Yield the moving frames that both recordings contain with different stamps."""
-    if merged.topic(one, "/tf") != merged.topic(other, "/tf"):
-        return
-    moving = [_moving(recordings[number], merged.frame(number)) for number in (one, other)]
-    for name in islice(sorted(moving[0].keys() & moving[1].keys()), _MAX_EDGES):
-        stamps = [_edge_stamps(recordings[n], moving[i][name]) for i, n in enumerate((one, other))]
-        if _differ(*stamps):
-            yield f"frame {name}"
+    """Yield the moving frames that both recordings contain with different stamps, on topics that are joined."""
+    pair = [_buffers(recordings[number], merged, number) for number in (one, other)]
+    for topic in sorted(pair[0].keys() & pair[1].keys()):
+        first, second = (_moving(each[topic], merged.frame(n)) for each, n in zip(pair, (one, other), strict=True))
+        for name in islice(sorted(first.keys() & second.keys()), _MAX_EDGES):
+            stamps = (_edge_stamps(each[topic], edges[name]) for each, edges in zip(pair, (first, second), strict=True))
+            if _differ(*stamps):
+                yield f"frame {name}"
 
 
-def _moving(recording: Recording, rename: Callable[[str], str]) -> dict[str, tuple[str, str]]:
+def _buffers(recording: Recording, merged: MergedNames, number: int) -> dict[str, Buffer]:
+    """Return the transforms of each namespace by the new name of their topic."""
+    return {merged.topic(number, f"{namespace}/tf"): buffer for namespace, buffer in recording.buffers.items()}
+
+
+def _moving(buffer: Buffer, rename: Callable[[str], str]) -> dict[str, tuple[str, str]]:
     """Return the moving edges by the new names of their child frames."""
-    edges = [edge for edge in recording.buffer.edges() if edge.parent and not edge.static]
+    edges = [edge for edge in buffer.edges() if edge.parent and not edge.static]
     return {rename(edge.child): (edge.parent, edge.child) for edge in edges}
 
 
-def _edge_stamps(recording: Recording, edge: tuple[str, str]) -> NDArray[np.int64]:
+def _edge_stamps(buffer: Buffer, edge: tuple[str, str]) -> NDArray[np.int64]:
     try:
-        poses, _ = TrajectoryQuery(*edge).run(recording)
-    except CoframeError:
+        return sample_stamps(buffer, *edge, None, None)
+    except CoframeError:  # The parent has changed, so the frames are not connected throughout.
         return np.empty(0, np.int64)
-    return np.asarray(poses.stamps, dtype=np.int64)
 
 
 def _topics(

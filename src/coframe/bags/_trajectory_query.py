@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from coframe.buffer.gaps import OnGap
     from coframe.transform.transform import Transform
 
-__all__ = ["BATCH", "MAX_RATE", "TrajectoryQuery", "stamps_at_rate"]
+__all__ = ["BATCH", "MAX_RATE", "TrajectoryQuery", "sample_stamps", "stamps_at_rate"]
 
 MAX_RATE = 1e6  # Hz
 BATCH = 50_000  # poses
@@ -98,7 +98,7 @@ class TrajectoryQuery:
         elif self.rate is not None:
             stamps = stamps_at_rate(buffer.span(self.target, self.source), start, stop, self.rate)
         else:
-            stamps = _sample_stamps(buffer, self.target, self.source, start, stop)
+            stamps = sample_stamps(buffer, self.target, self.source, start, stop)
         if not stamps.size:
             raise _no_stamps_error(recording)
         return stamps
@@ -153,7 +153,7 @@ class TrajectoryQuery:
         return (poses, 0) if found.all() else (poses[found], int(np.count_nonzero(~found)))
 
 
-def _sample_stamps(buffer: Buffer, target: str, source: str, start: int | None, stop: int | None) -> NDArray[np.int64]:
+def sample_stamps(buffer: Buffer, target: str, source: str, start: int | None, stop: int | None) -> NDArray[np.int64]:
     """Return the stamps that :meth:`coframe.Buffer.trajectory` uses."""
     span = buffer.span(target, source)
     first = span[0] if start is None else max(span[0], start)
