@@ -90,6 +90,8 @@ _LAZY = {
 }
 _PUBLIC_MODULES = {
     "bags",
+    "calibration",
+    "cameras",
     "doctor",
     "frame_names",
     "messages",

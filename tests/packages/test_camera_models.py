@@ -8,6 +8,7 @@ import cv2
 import numpy as np
 import pytest
 
+from coframe.cameras import CameraError
 from image_geometry import PinholeCameraModel, StereoCameraModel
 from sensor_msgs.msg import CameraInfo
 
@@ -109,8 +110,34 @@ def test_stereo_points_are_those_of_opencv():
     assert stereo.tfFrame() == "camera"
 
 
-def test_only_rectification_needs_opencv(camera, monkeypatch):
+def test_only_images_need_opencv(camera, monkeypatch):
     monkeypatch.setitem(sys.modules, "cv2", None)
     assert camera.projectPixelTo3dRay((310, 250)) == (0.0, 0.0, 1.0)
+    assert np.isfinite(camera.rectifyPoint((1, 2))).all()
     with pytest.raises(ModuleNotFoundError, match=r"pip install 'coframe\[opencv\]'"):
+        camera.rectifyImage(np.zeros((480, 640), np.uint8), np.zeros((480, 640), np.uint8))
+
+
+@pytest.mark.parametrize("model", ["equidistant", "fisheye", "kannala_brandt4"])
+def test_fisheye_cameras_are_rectified_as_by_opencv(model):
+    k, d = np.array([[400.0, 0.0, 640.0], [0.0, 400.0, 400.0], [0.0, 0.0, 1.0]]), np.array([0.05, -0.01, 0.003, 0.0])
+    info = CameraInfo(width=1280, height=800, distortion_model=model, d=d, k=k.ravel(), r=np.eye(3).ravel())
+    info.p = np.column_stack([k, np.zeros(3)]).ravel()
+    camera = PinholeCameraModel()
+    camera.fromCameraInfo(info)
+    for pixel in ((1100.0, 600.0), (640.0, 400.0), (200.0, 700.0)):
+        expected = cv2.fisheye.undistortPoints(np.array([[pixel]]), k, d, P=k)[0, 0]
+        assert camera.rectifyPoint(pixel) == pytest.approx(expected, abs=1e-3)
+    raw = cv2.GaussianBlur(np.random.default_rng(1).integers(0, 255, (800, 1280), np.uint8), (0, 0), 4)
+    rectified = np.zeros_like(raw)
+    camera.rectifyImage(raw, rectified)
+    maps = cv2.fisheye.initUndistortRectifyMap(k, d, np.eye(3), k, (1280, 800), cv2.CV_32FC1)
+    assert np.abs(rectified.astype(int) - cv2.remap(raw, *maps, cv2.INTER_CUBIC)).max() <= 2
+
+
+def test_distortion_models_that_are_not_supported_are_named(camera):
+    info = camera_info(distortion_model="ftheta")
+    camera.fromCameraInfo(info)
+    assert camera.project3dToPixel(POINT)[0] == pytest.approx(406.0)  # P needs no lens
+    with pytest.raises(CameraError, match="model 'ftheta' with 5 coefficients is not supported"):
         camera.rectifyPoint((1, 2))

@@ -22,6 +22,8 @@
         ├── TrajectoryError(ValueError)         a trajectory that cannot be read or compared
         ├── PlotError(ValueError)               something that cannot be plotted
         ├── ContractError(ValueError)           a contract for recordings that is invalid
+        ├── CameraError(ValueError)             a camera whose calibration is missing or not supported
+        ├── CalibrationError(ValueError)        a calibration that cannot be read, written or estimated
         ├── CourseError(ValueError)             a folder of the lab that cannot be created or graded
         ├── PluginError(RuntimeError)           a plug-in of another package that cannot be loaded
         ├── UnsuitableFileError(OSError)        a pipe, a device, or a file that is too large (regular_files)
@@ -57,6 +59,8 @@ if TYPE_CHECKING:
     from coframe._core import Failure
 
 __all__ = [
+    "CalibrationError",
+    "CameraError",
     "CoframeError",
     "CoframeWarning",
     "ConnectivityException",
@@ -294,6 +298,14 @@ class FrozenFileError(_HintedError, ValueError):
 
 class ContractError(_HintedError, ValueError):
     """A contract for recordings that is invalid or cannot be read; the message names the place."""
+
+
+class CameraError(_HintedError, ValueError):
+    """A camera whose calibration is missing, contradicts itself, or has a model that is not supported."""
+
+
+class CalibrationError(_HintedError, ValueError):
+    """A calibration that cannot be read, written, or estimated from the data."""
 
 
 class RecordingError(_HintedError, ValueError):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Pinhole and stereo cameras.
 
+The lens is that of the CameraInfo's `distortion_model`, as in the C++ library; upstream's Python module ignores it.
+
 The methods have the names of Humble (`project3dToPixel`) and of newer distributions (`project_3d_to_pixel`).
 Matrices are `numpy.matrix`, as upstream, so that `*` is the matrix product. Pixels are (column, row); points are in the
 optical frame of the camera (x to the right, y down, z forward) in meters.
@@ -15,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from coframe._process.optional_imports import import_optional
+from coframe.cameras import CameraModel, lens_of
 from sensor_msgs.msg import CameraInfo
 
 __all__ = ["PinholeCameraModel", "StereoCameraModel"]
@@ -74,9 +77,11 @@ class PinholeCameraModel:
         self.raw_roi: Any = None
         self.tf_frame: Any = None
         self.stamp: Any = None
+        self.__distortion_model = ""
 
     def fromCameraInfo(self, msg: CameraInfo) -> None:
         """Use the calibration in a CameraInfo message."""
+        self.__distortion_model = msg.distortion_model
         self.K, self.full_K = _matrix(3, 3, msg.k), _matrix(3, 3, msg.k)
         self.D = _matrix(len(msg.d), 1, msg.d) if len(msg.d) else None
         self.R = _matrix(3, 3, msg.r)
@@ -102,22 +107,27 @@ class PinholeCameraModel:
             rectified: Array of the same shape and type into which the result is written.
 
         Raises:
+            CameraError: The distortion model is not supported.
             ModuleNotFoundError: OpenCV is not installed.
         """
         cv2 = _opencv()
-        size = (self.width, self.height)
-        self.mapx, self.mapy = cv2.initUndistortRectifyMap(self.K, self.D, self.R, self.P, size, cv2.CV_32FC1)
+        size = (raw.shape[1], raw.shape[0])
+        self.mapx, self.mapy = self.__camera().undistortion_map(size)
         cv2.remap(raw, self.mapx, self.mapy, cv2.INTER_CUBIC, rectified)
 
     def rectifyPoint(self, uv_raw: Numbers) -> NDArray[np.float64]:
-        """Return the pixel of the rectified image for a pixel of the raw image.
+        """Return the pixel of the rectified image for a pixel of the raw image, NaN if the lens draws nothing there.
 
         Raises:
-            ModuleNotFoundError: OpenCV is not installed.
+            CameraError: The distortion model is not supported.
         """
-        source = np.array(uv_raw, np.float64).reshape(1, 1, 2)
-        found = _opencv().undistortPoints(source, self.K, self.D, R=self.R, P=self.P)
-        return np.asarray(found[0, 0], np.float64)
+        return self.__camera().rectify(np.array(uv_raw, np.float64).reshape(2))
+
+    def __camera(self) -> CameraModel:
+        """Return the camera of the current matrices, which programs may have set."""
+        coefficients = [] if self.D is None else np.asarray(self.D).ravel().tolist()
+        lens = lens_of(self.__distortion_model, coefficients)
+        return CameraModel(self.width, self.height, np.asarray(self.K), lens, np.asarray(self.R), np.asarray(self.P))
 
     def project3dToPixel(self, point: Numbers) -> tuple[float, float]:
         """Return the pixel (u, v) of the rectified image for a point (x, y, z), NaN if the point is in the camera."""
