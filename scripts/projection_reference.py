@@ -33,6 +33,12 @@ CAMERAS: list[dict[str, Any]] = [
         "distortion_model": "rational_polynomial",
         "d": [0.11, -0.05, 0.001, -0.0005, 0.01, 0.02, -0.01, 0.005, 0.001, -0.002, 0.0015, 0.0005],
     },
+    {
+        "name": "tilted sensor",
+        "distortion_model": "rational_polynomial",
+        "d": [-0.1, 0.02, 0.001, -0.002, 0.01, 0.01, 0.0, 0.0, 0.002, -0.001, 0.003, 0.0005, 0.05, -0.03],
+    },
+    {"name": "equidistant without coefficients", "distortion_model": "equidistant", "d": [0.0, 0.0, 0.0, 0.0]},
     {"name": "equidistant", "distortion_model": "equidistant", "d": [-0.012, 0.02, -0.014, 0.003]},
 ]
 K = [525.3, 0.0, 319.5, 0.0, 520.9, 239.5, 0.0, 0.0, 1.0]

@@ -45,6 +45,8 @@ CLASSES = {"Buffer", "CallbackHandle", "CoframeWarning", "Connection", "EdgeInfo
 FUNCTIONS = {"connect", "load", "open_bag", "play", "record", "relay", "show"}
 MODULES = {
     "bags",
+    "calibration",
+    "cameras",
     "doctor",
     "frame_names",
     "messages",

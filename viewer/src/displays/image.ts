@@ -5,11 +5,11 @@ import * as THREE from "three";
 import { byId, h, setText, shorten } from "../util/dom";
 import type { FramePoses } from "../scene/frame_poses";
 import { ImageFormat, type DisplayMessage, type Image, type FrameUpdate } from "../protocol/messages";
-import { projection } from "../util/camera_model";
+import { firstCamera, imageSize, isRectifiedTopic, projection } from "../util/camera_model";
 import { CameraDisplay } from "./camera_info";
 import { MessageDisplay, type Context, type Display, type DisplayConfig } from "./display";
 import { ImageOverlay } from "./image_overlay";
-import { cameraTopicOf, contentOf } from "./projected_content";
+import { cameraTopicOf, contentOf, isFrameAt } from "./projected_content";
 
 const AUTO = "By topic";
 
@@ -96,8 +96,10 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
     const camera = cameras.find(({ config }) => config.topic === topic && config.enabled)?.newest();
     if (!camera) return `waiting for ${topic}`;
     const choice = this.options.choice("Rectified");
-    const rectified = choice === AUTO ? /rect/.test((this.config.topic ?? "").replace(/unrect/, "")) : choice === "Yes";
-    const project = projection(camera.intrinsics, rectified);
+    const rectified = choice === AUTO ? isRectifiedTopic(this.config.topic ?? "") : choice === "Yes";
+    const first = firstCamera(camera.intrinsics);
+    const inTransforms = first !== null && isFrameAt(framePoses, camera.pose, ...first);
+    const project = projection(camera.intrinsics, rectified, inTransforms);
     if (typeof project === "string") return project;
     const { canvas, options } = this;
     const shown = { width: canvas.clientWidth, height: canvas.clientHeight };
@@ -110,7 +112,7 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
     this.overlay.draw(
       project,
       camera.pose,
-      camera.intrinsics,
+      imageSize(camera.intrinsics),
       shown,
       { ...content, axisLength },
       palette(),

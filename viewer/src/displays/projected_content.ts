@@ -45,6 +45,18 @@ function framesOf({ positions, quaternions, count, drawn }: FramePoses, model: M
   return frames;
 }
 
+/** The part of a baseline by which a frame may be off. */
+const MAX_BASELINE_ERROR = 0.05;
+
+/** Whether a frame is at the place (x, y, 0) of a camera. */
+export function isFrameAt({ positions, count }: FramePoses, camera: THREE.Matrix4, x: number, y: number): boolean {
+  const place = new THREE.Vector3(x, y, 0).applyMatrix4(camera);
+  const limit = MAX_BASELINE_ERROR * Math.hypot(x, y);
+  const other = new THREE.Vector3();
+  for (let i = 0; i < count; i++) if (other.fromArray(positions, i * 3).distanceTo(place) < limit) return true;
+  return false;
+}
+
 /**
  * The topic of the CameraInfo of an image: next to the image, or the only one in a namespace above it. Compressed
  * images are published below the topic of the raw image.

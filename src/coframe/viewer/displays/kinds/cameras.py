@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import Any, Literal, TypedDict
 
+from coframe.cameras import CameraError, lens_of
 from coframe.viewer.displays._drawing import NO_NUMBERS, Drawing, Options, drawing_of_shapes, finite_all, header_of
 from coframe.viewer.displays._renderers import draw_each_message
 from coframe.viewer.displays._row import ColorOption, DisplayRow, NumberOption
@@ -15,7 +16,7 @@ MAX_DISTORTION_COEFFICIENTS = 16  # OpenCV's models have at most 14.
 
 
 class CameraShape(TypedDict):
-    """The intrinsics of a camera: image size in pixels, the 3x3 matrix K and the 3x4 matrix P in row-major order."""
+    """A camera: size in pixels, the matrices K, R and P in row-major order, and its lens, as in `coframe.cameras`."""
 
     kind: Literal["camera"]
     frame: str
@@ -24,13 +25,24 @@ class CameraShape(TypedDict):
     height: int
     k: list[float | None]
     p: list[float | None]
+    r: list[float | None]
     distortion_model: str
     d: list[float | None]
+    roi: list[int]
+    binning: list[int]
+    problem: str
 
 
 def draw_camera(message: Any, options: Options) -> Drawing:
     """Draw the view frustum of a CameraInfo."""
     frame, stamp = header_of(message, options)
+    model, d, problem = message.distortion_model, message.d[:MAX_DISTORTION_COEFFICIENTS], ""
+    try:
+        lens = lens_of(model, d)
+        model, d = lens.name, lens.coefficients
+    except CameraError as error:
+        problem = f"{error}. {error.hint}"
+    roi = message.roi
     description = CameraShape(
         kind="camera",
         frame=frame,
@@ -39,8 +51,12 @@ def draw_camera(message: Any, options: Options) -> Drawing:
         height=message.height,
         k=finite_all(message.k),
         p=finite_all(message.p),
-        distortion_model=message.distortion_model,
-        d=finite_all(message.d[:MAX_DISTORTION_COEFFICIENTS]),
+        r=finite_all(message.r),
+        distortion_model=model,
+        d=finite_all(d),
+        roi=[int(value) for value in (roi.x_offset, roi.y_offset, roi.width, roi.height)],
+        binning=[max(1, int(message.binning_x)), max(1, int(message.binning_y))],
+        problem=problem,
     )
     return drawing_of_shapes(message, description, NO_NUMBERS)
 
