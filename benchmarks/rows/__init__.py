@@ -13,6 +13,7 @@ from benchmarks.rows import (
     large_recordings,
     listener,
     middlewares,
+    nodes,
     poses,
     publishing,
     recordings,
@@ -44,6 +45,7 @@ ROWS = {
     "idle": idle.ROWS,
     "images": images.ROWS,
     "middlewares": middlewares.ROWS,
+    "nodes": nodes.ROWS,
     "viewer": viewer.ROWS,
 }
 """The rows by subject."""

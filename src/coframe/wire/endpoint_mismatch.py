@@ -179,7 +179,9 @@ class MismatchMonitor:
         own_guids = {endpoint.guid for endpoint in endpoints}
         writers, readers = self._graph.by_topic(writers=True), self._graph.by_topic(writers=False)
         for own in endpoints:
-            peers = (readers if own.is_writer else writers).get(own.topic, {})
+            peers = (readers if own.is_writer else writers).get(own.topic)
+            if not peers:
+                continue
             matched = own.matched_handles()
             for handle, peer in peers.items():
                 if handle in matched:

@@ -64,6 +64,9 @@ class GraphNode:
         self.has_parameters = has_parameters
         self._participant = participant
         self._endpoints: dict[bytes, LocalEndpoint] = {}
+        self._info: NodeInfo | None = None
+        self._has_changed = True
+        self._is_held = False
 
     @property
     def full_name(self) -> str:
@@ -79,28 +82,49 @@ class GraphNode:
         """Return the writer that sent a `Sample`, given its handle, or None if it has left."""
         return self._participant.find_writer(handle)
 
-    def info(self) -> NodeInfo:
-        """Return the description of this node that is published on the graph."""
-        endpoints = self.endpoints
-        return NodeInfo(
-            self.namespace,
-            self.name,
-            readers=tuple(guid for endpoint in endpoints if not endpoint.is_writer for guid in endpoint.guids),
-            writers=tuple(guid for endpoint in endpoints if endpoint.is_writer for guid in endpoint.guids),
-        )
+    def info(self) -> NodeInfo | None:
+        """Return the description of this node that is published on the graph, or None if it is not announced yet."""
+        if self._has_changed and not self._is_held:
+            self._has_changed = False
+            endpoints = self.endpoints
+            self._info = NodeInfo(
+                self.namespace,
+                self.name,
+                readers=tuple(guid for endpoint in endpoints if not endpoint.is_writer for guid in endpoint.guids),
+                writers=tuple(guid for endpoint in endpoints if endpoint.is_writer for guid in endpoint.guids),
+            )
+        return self._info
+
+    def hold(self) -> None:
+        """Do not announce changes of this node until `announce` or `close` is called, which announce all of them."""
+        self._is_held = True
+
+    def announce(self) -> None:
+        """Announce this node with its present endpoints, and from now on each change."""
+        self._is_held = False
+        self._participant.announce()
 
     def add(self, endpoint: LocalEndpoint) -> None:
         """Announce `endpoint` as an endpoint of this node."""
         self._endpoints[endpoint.guid] = endpoint
-        self._participant.announce()
+        self.endpoints_changed()
+        if not self._is_held:
+            self._participant.announce()
 
     def remove(self, endpoint: LocalEndpoint) -> None:
         """Stop announcing `endpoint` as an endpoint of this node."""
         if self._endpoints.pop(endpoint.guid, None):
-            self._participant.announce()
+            self.endpoints_changed()
+            if not self._is_held:
+                self._participant.announce()
+
+    def endpoints_changed(self) -> None:
+        """Describe the endpoints again in the next announcement."""
+        self._has_changed = True
 
     def close(self) -> None:
         """Remove the node from the graph and close its endpoints."""
+        self.hold()
         for endpoint in self.endpoints:
             endpoint.leave(self)
         self._participant.remove_node(self)

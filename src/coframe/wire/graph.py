@@ -9,15 +9,20 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.wire import names
+from coframe.wire._endpoint_table import EndpointTable
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from coframe.wire.names import Kind
     from coframe.wire.qos import QoS
 
 UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
 UNKNOWN_NAMESPACE = "_NODE_NAMESPACE_UNKNOWN_"
 
-_DEPARTED_WRITERS = 500  # writers whose node names are kept after they have left
+# Writers whose node names are kept after they, or their nodes, have left.
+_MAX_DEPARTED_WRITERS = 500
+_MAX_FORMER_OWNERS = 2_000  # includes all endpoints of the nodes
 
 
 @dataclass(frozen=True)
@@ -74,11 +79,13 @@ class Graph:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._nodes: dict[bytes, list[NodeInfo]] = {}  # by participant
-        self._owners: dict[bytes, NodeInfo] = {}
-        self._writers: dict[int, DiscoveredEndpoint] = {}
-        self._readers: dict[int, DiscoveredEndpoint] = {}
-        self._writer_nodes: OrderedDict[int, str] = OrderedDict()  # includes writers that have left
+        self._nodes: dict[bytes, Sequence[NodeInfo]] = {}  # by participant; changed by `_set_nodes`
+        self._owners: dict[bytes, NodeInfo] = {}  # by endpoint
+        self._writers = EndpointTable()
+        self._readers = EndpointTable()
+        self._departed_writers: OrderedDict[int, bytes] = OrderedDict()  # on ROS topics: their GUIDs
+        self._former_owners: OrderedDict[bytes, str] = OrderedDict()  # the names of nodes that have left
+        self._types: dict[tuple[Kind, ...], tuple[int, dict[str, list[str]]]] = {}  # with the version they are of
         self._version = 0
 
     def close(self) -> None:
@@ -114,13 +121,6 @@ class Graph:
         """Process pending discovery messages and return a version number that increases with every change."""
         with self._lock:
             if self._take_changes():
-                self._owners = {
-                    guid: node
-                    for nodes in self._nodes.values()
-                    for node in nodes
-                    for guid in (*node.readers, *node.writers)
-                }
-                self._store_writer_nodes()
                 self._version += 1
             return self._version
 
@@ -137,25 +137,24 @@ class Graph:
     def types(self, kinds: tuple[Kind, ...]) -> dict[str, list[str]]:
         """Return the topics or services of these kinds with their ROS types."""
         self.refresh()
-        found: dict[str, set[str]] = {}
         with self._lock:
-            for endpoint in (*self._writers.values(), *self._readers.values()):
-                for kind in kinds:
-                    if (name := names.ros_topic(endpoint.topic, kind)) is not None:
-                        found.setdefault(name, set()).add(names.ros_type(endpoint.type))
-        return {name: sorted(types) for name, types in sorted(found.items())}
+            version, types = self._types.get(kinds, (-1, {}))
+            if version != self._version:
+                types = self._find_types(kinds)
+                self._types[kinds] = self._version, types
+            return {name: list(found) for name, found in types.items()}
 
     def writers(self, topic: str) -> dict[int, DiscoveredEndpoint]:
         """Return the writers on a DDS topic by their handles."""
         self.refresh()
         with self._lock:
-            return {handle: writer for handle, writer in self._writers.items() if writer.topic == topic}
+            return self._writers.on_topic(topic)
 
     def readers(self, topic: str) -> dict[int, DiscoveredEndpoint]:
         """Return the readers of a DDS topic by their handles."""
         self.refresh()
         with self._lock:
-            return {handle: reader for handle, reader in self._readers.items() if reader.topic == topic}
+            return self._readers.on_topic(topic)
 
     def writer(self, handle: int) -> DiscoveredEndpoint | None:
         """Return a writer by its handle, or None if it has left."""
@@ -165,11 +164,8 @@ class Graph:
 
     def by_topic(self, *, writers: bool) -> dict[str, dict[int, DiscoveredEndpoint]]:
         """Return all writers or all readers by DDS topic and handle, without processing discovery messages."""
-        grouped: dict[str, dict[int, DiscoveredEndpoint]] = {}
         with self._lock:
-            for handle, endpoint in (self._writers if writers else self._readers).items():
-                grouped.setdefault(endpoint.topic, {})[handle] = endpoint
-        return grouped
+            return (self._writers if writers else self._readers).by_topic()
 
     def describe(self, endpoint: DiscoveredEndpoint) -> EndpointInfo:
         """Return the endpoint together with its node."""
@@ -195,17 +191,48 @@ class Graph:
         """
         self.refresh()
         with self._lock:
-            return self._writer_nodes.get(handle)
+            writer = self._writers.get(handle)
+            guid = writer.guid if writer is not None else self._departed_writers.get(handle)
+            return None if guid is None else self.owner(guid) or self._former_owners.get(guid)
 
     def _take_changes(self) -> bool:
         """Process pending discovery messages and return whether the nodes or the endpoints have changed."""
         raise NotImplementedError
 
-    def _store_writer_nodes(self) -> None:
-        """Store the node names of writers, which are needed for samples whose writer has already left."""
-        for handle, writer in self._writers.items():
-            if names.is_topic(writer.topic) and (node := self.owner(writer.guid)) is not None:
-                self._writer_nodes[handle] = node
-                self._writer_nodes.move_to_end(handle)
-        while len(self._writer_nodes) > len(self._writers) + _DEPARTED_WRITERS:
-            self._writer_nodes.popitem(last=False)
+    def _set_nodes(self, participant: bytes, nodes: Sequence[NodeInfo] | None) -> None:
+        """Replace the nodes of a participant. None: it has left."""
+        owners = _owners_of(nodes or ())
+        former = _owners_of(self._nodes.get(participant, ()))
+        for guid in former.keys() - owners.keys():
+            if self._owners.get(guid) is former[guid]:
+                del self._owners[guid]
+            self._former_owners[guid] = names.full_name(former[guid].namespace, former[guid].name)
+        while len(self._former_owners) > _MAX_FORMER_OWNERS:
+            self._former_owners.popitem(last=False)
+        self._owners.update(owners)
+        if nodes is None:
+            self._nodes.pop(participant, None)
+        else:
+            self._nodes[participant] = nodes
+
+    def _remove_writer(self, handle: int) -> DiscoveredEndpoint | None:
+        """Remove a writer and return it. Its samples may still be queued, so its GUID is kept for `writer_node`."""
+        writer = self._writers.remove(handle)
+        if writer is not None and names.is_topic(writer.topic):
+            self._departed_writers[handle] = writer.guid
+            if len(self._departed_writers) > _MAX_DEPARTED_WRITERS:
+                self._departed_writers.popitem(last=False)
+        return writer
+
+    def _find_types(self, kinds: tuple[Kind, ...]) -> dict[str, list[str]]:
+        found: dict[str, set[str]] = {}
+        for table in (self._writers, self._readers):
+            for topic, types in table.types():
+                for kind in kinds:
+                    if (name := names.ros_topic(topic, kind)) is not None:
+                        found.setdefault(name, set()).update(map(names.ros_type, types))
+        return {name: sorted(types) for name, types in sorted(found.items())}
+
+
+def _owners_of(nodes: Sequence[NodeInfo]) -> dict[bytes, NodeInfo]:
+    return {guid: node for node in nodes for guid in (*node.readers, *node.writers)}

@@ -24,12 +24,16 @@ def check_name(name: str) -> None:
 
     The DDS standard allows 256 bytes. Cyclone DDS and Zenoh abort the process when they announce a name of 64 KiB.
     """
-    if (size := len(name.encode(errors="surrogatepass"))) > MAX_NAME:
+    try:
+        size, is_valid = len(name.encode()), True
+    except UnicodeEncodeError:  # surrogates, which represent non-UTF-8 bytes in program arguments
+        size, is_valid = len(name.encode(errors="surrogatepass")), False
+    if size > MAX_NAME:
         raise WireError(
             f"The name {display_name(name)!r} has {size} bytes. The limit is {MAX_NAME} bytes.",
             hint="Choose a shorter name.",
         )
-    if any("\ud800" <= c <= "\udfff" for c in name):  # surrogates, which represent non-UTF-8 bytes in program arguments
+    if not is_valid:
         raise WireError(f"The name {display_name(name)!r} is not valid UTF-8.", hint="Choose another name.")
 
 

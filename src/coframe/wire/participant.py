@@ -9,7 +9,8 @@ import logging
 import os
 import signal
 import threading
-from typing import TYPE_CHECKING, ClassVar
+import time
+from typing import TYPE_CHECKING, ClassVar, Final
 
 from coframe import _core
 from coframe._output.escaping import printable
@@ -35,6 +36,11 @@ if TYPE_CHECKING:
 
 _logger = logging.getLogger("coframe.wire")
 
+# The maintenance thread pauses for this many times as long as it worked. While many nodes or endpoints are created one
+# after the other, it would otherwise examine all of them after each one.
+_PAUSE_FACTOR: Final = 10
+_MAX_PAUSE: Final = SECOND // 10
+
 
 class Participant(EndpointFactory, GraphQueries):
     """The participant of this process in a ROS domain over a middleware. All methods are thread-safe.
@@ -58,6 +64,7 @@ class Participant(EndpointFactory, GraphQueries):
         self._nodes: list[GraphNode] = []
         self._statics: dict[str, SharedStaticPublisher] = {}
         self._wake = _core.Event()
+        self._end_of_pause = _core.Event()  # set when the participant is closed
         self._session = selection.join(wire, domain_id, self._wake)
         self._graph = self._session.graph
         self._mismatches = MismatchMonitor(self._graph, self._warn)
@@ -109,7 +116,9 @@ class Participant(EndpointFactory, GraphQueries):
             if self._references == 0 and self._process == os.getpid():
                 self._end()
 
-    def add_node(self, namespace: str, name: str, *, has_parameters: bool = False) -> GraphNode:
+    def add_node(
+        self, namespace: str, name: str, *, has_parameters: bool = False, is_complete: bool = True
+    ) -> GraphNode:
         """Add a node to the graph.
 
         Args:
@@ -117,6 +126,8 @@ class Participant(EndpointFactory, GraphQueries):
             name: The name without the namespace.
             has_parameters: Whether the caller provides the parameter services of the node. If not, the participant
                 provides services without parameters.
+            is_complete: Whether to announce the node now. If not, the caller creates its first endpoints and then calls
+                `GraphNode.announce`, so that the others receive one message about the node.
 
         Raises:
             WireError: The namespace is not absolute, or a name is longer than 256 bytes.
@@ -126,9 +137,12 @@ class Participant(EndpointFactory, GraphQueries):
         for text in (namespace, name):
             names.check_name(text)
         node = GraphNode(self, namespace, name, has_parameters=has_parameters)
+        if not is_complete:
+            node.hold()
         with self._lock:
             self._nodes.append(node)
-            self.announce()
+            if is_complete:
+                self.announce()
         return node
 
     def remove_node(self, node: GraphNode) -> None:
@@ -194,17 +208,19 @@ class Participant(EndpointFactory, GraphQueries):
 
     def _run_maintenance(self) -> None:
         seen = -1
+        endpoints: list[LocalEndpoint] = []
         while not self._closing:
             pause = SECOND
+            start = time.thread_time_ns()
             try:
                 pause = self._session.repeat_announcement()
                 version = self._graph.refresh()
                 if version != seen:
                     self._graph_changed()
+                    endpoints = self._endpoints()  # a new one is part of the graph
                 if version != seen or self._mismatches.waiting:
-                    self._mismatches.check(self._endpoints())
+                    self._mismatches.check(endpoints)
                 seen = version
-                endpoints = self._endpoints()
                 for endpoint in endpoints:
                     endpoint.report_unreachable()
                 self._ignored_messages.check(endpoints)
@@ -217,6 +233,8 @@ class Participant(EndpointFactory, GraphQueries):
                 # A warning callback raised, or an endpoint was closed in the meantime.
                 if not self._closing:
                     _logger.exception("The maintenance of the ROS graph failed. Retrying in 1 s.")
+            worked = time.thread_time_ns() - start
+            self._end_of_pause.wait(min(_PAUSE_FACTOR * worked, _MAX_PAUSE))
             self._wake.wait(pause)
 
     def _warn_of_naming_problems(self, readers: list[TfReader]) -> None:
@@ -245,6 +263,7 @@ class Participant(EndpointFactory, GraphQueries):
     def _end(self) -> None:
         del self._instances[self.wire, self.domain_id]
         self._closing = True
+        self._end_of_pause.set()
         self._wake.set()
         if self._thread is not threading.current_thread():
             self._thread.join()

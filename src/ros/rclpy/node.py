@@ -128,7 +128,7 @@ class Node(_node_endpoints.Node):
 
         self._Coframe__participant = self.__context._Coframe__get_participant()
         self._Coframe__graph_node = self._Coframe__participant.add_node(
-            self._Coframe__names.namespace, self._Coframe__names.node_name, has_parameters=True
+            self._Coframe__names.namespace, self._Coframe__names.node_name, has_parameters=True, is_complete=False
         )
         self._Coframe__polled_subscriptions: list[PolledSubscription] = []
         self.__rosout: RosoutPublisher | None = None
@@ -159,6 +159,7 @@ class Node(_node_endpoints.Node):
                 from rclpy.logging_service import LoggingService  # noqa: PLC0415 - few nodes have it
 
                 LoggingService(self)
+            self._Coframe__graph_node.announce()
         except BaseException:
             self.destroy_node()  # The caller has no reference to the node.
             raise
@@ -373,6 +374,7 @@ class Node(_node_endpoints.Node):
             return
         if self.executor is not None:
             self.executor.remove_node(self)
+        self._Coframe__graph_node.hold()
         self._Coframe__entities.destroy_all()
         if self.__rosout is not None:
             self.__rosout.close()

@@ -29,6 +29,7 @@ class FastDdsGraph(DdsGraph):
 
     def __init__(self, participant: native.Participant, info_reader: BackendReader, *, has_server: bool) -> None:
         super().__init__(
+            participant.guid,
             info_reader,
             _Changes(participant.take_writers),
             _Changes(participant.take_readers),

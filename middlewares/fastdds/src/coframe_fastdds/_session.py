@@ -139,7 +139,9 @@ class FastDdsSession:
     def announce(self, nodes: Sequence[GraphNode]) -> None:
         """Publish the nodes of this process with their endpoints."""
         self._nodes = list(nodes)
-        self._announcer.announce(nodes)
+        described = [info for node in nodes if (info := node.info()) is not None]
+        self.graph.set_own_nodes(described)
+        self._announcer.announce(described)
 
     def repeat_announcement(self) -> int:
         """Publish the nodes again if that failed. Fast DDS itself repeats the announcement of the participant."""
@@ -150,7 +152,9 @@ class FastDdsSession:
     def adapt(self) -> str:
         """Adapt nodes and services to the forms that the other participants can read."""
         if self._services.adapt():
-            self._announcer.announce(self._nodes)
+            for node in self._nodes:
+                node.endpoints_changed()
+            self.announce(self._nodes)
         return self._announcer.adapt(self.graph)
 
     def close(self) -> None:

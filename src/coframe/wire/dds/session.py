@@ -91,6 +91,7 @@ class DdsSession:
             ),
         )
         self.graph = DdsGraph(
+            self.native.guid,
             _core.Reader(
                 participant, self._graph_topic(), native_qos(GRAPH_READER), endpoint_user_data(ROS_TYPE), changed
             ),
@@ -178,7 +179,9 @@ class DdsSession:
 
     def announce(self, nodes: Sequence[GraphNode]) -> None:
         """Publish the nodes of this process with their endpoints."""
-        self._announcer.announce(nodes)
+        described = [info for node in nodes if (info := node.info()) is not None]
+        self.graph.set_own_nodes(described)
+        self._announcer.announce(described)
 
     def repeat_announcement(self) -> int:
         """Announce this process again if the network may have lost the first announcements."""

@@ -15,7 +15,7 @@ from coframe.wire.graph import NodeInfo
 from coframe.wire.names import MAX_NAME
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Mapping
+    from collections.abc import Collection, Mapping, Sequence
 
 TOPIC = "ros_discovery_info"
 ROS_TYPE = "rmw_dds_common/msg/ParticipantEntitiesInfo"
@@ -25,6 +25,7 @@ TYPE = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_"
 ADAPTS = "coframe=adapts;"
 
 _GUID_SIZE = 16
+_COUNT = struct.Struct("<I")
 _MAX_LISTED_NAMES = 10  # in a warning
 _GID_SIZES = (24, 16)  # the longer form is the GUID, padded with zeros
 _USED_BY = {24: "ROS 2 Humble or earlier", 16: "ROS 2 Iron or later"}
@@ -73,26 +74,30 @@ def unseen_text(size: int, others: Mapping[int, Collection[str]]) -> str:
     )
 
 
-def encode_info(participant: bytes, nodes: list[NodeInfo], size: int) -> bytes:
-    """Return the message as CDR, with identifiers of `size` bytes."""
+def encode_node(node: NodeInfo, size: int) -> bytes:
+    """Return the part of the message about a node, with identifiers of `size` bytes.
+
+    Its size is a multiple of four bytes, so that the parts can be joined in any order.
+    """
     padding = bytes(size - _GUID_SIZE)
-    body = bytearray(participant + padding)
+    parts: list[bytes] = []
+    for text in (node.namespace, node.name):
+        data = text.encode() + b"\0"
+        parts += (_COUNT.pack(len(data)), data, bytes(-len(data) % _COUNT.size))
+    for guids in (node.readers, node.writers):
+        parts.append(_COUNT.pack(len(guids)))
+        parts += [guid + padding for guid in guids]
+    return b"".join(parts)
 
-    def put_count(count: int) -> None:
-        body.extend(bytes(-len(body) % 4))
-        body.extend(struct.pack("<I", count))
 
-    put_count(len(nodes))
-    for node in nodes:
-        for text in (node.namespace, node.name):
-            data = text.encode() + b"\0"
-            put_count(len(data))
-            body.extend(data)
-        for guids in (node.readers, node.writers):
-            put_count(len(guids))
-            for guid in guids:
-                body.extend(guid + padding)
-    return b"\0\1\0\0" + bytes(body)
+def join_info(participant: bytes, nodes: Sequence[bytes], size: int) -> bytes:
+    """Return the message as CDR, given the parts about its nodes from `encode_node`."""
+    return b"".join((b"\0\1\0\0", participant, bytes(size - _GUID_SIZE), _COUNT.pack(len(nodes)), *nodes))
+
+
+def encode_info(participant: bytes, nodes: Sequence[NodeInfo], size: int) -> bytes:
+    """Return the message as CDR, with identifiers of `size` bytes."""
+    return join_info(participant, [encode_node(node, size) for node in nodes], size)
 
 
 def decode_info(message: bytes) -> ParticipantInfo | None:

@@ -7,21 +7,23 @@ from collections import OrderedDict
 from typing import TYPE_CHECKING, Any, Protocol
 
 from coframe.wire import names, vendors
-from coframe.wire.graph import DiscoveredEndpoint, Graph
+from coframe.wire.graph import DiscoveredEndpoint, Graph, NodeInfo
 from coframe.wire.qos import QoS
 from coframe.wire.rtps.clients import receives_replies
 from coframe.wire.rtps.discovery_info import ADAPTS, TOPIC, decode_info
 from coframe.wire.rtps.user_data import REQUESTS_HISTORY, type_hash_of
 
 if TYPE_CHECKING:
-    from collections.abc import Collection
+    from collections.abc import Collection, Sequence
 
     from coframe.wire._backend import BackendReader
+    from coframe.wire._endpoint_table import EndpointTable
 
 MAX_DEPARTED_WRITERS = 1_000  # remembered after they have left, because their requests may still be queued
 
 _BATCH = 256  # messages
 _ENCLAVE = b"enclave="  # in the user data of every participant of ROS
+_PARTICIPANT = slice(4, 20)  # of a message on the topic ros_discovery_info
 _HIDDEN = REQUESTS_HISTORY.encode()
 
 
@@ -39,6 +41,7 @@ class DdsGraph(Graph):
     """The graph of a DDS domain.
 
     Args:
+        participant: The GUID of the participant of this process.
         info_reader: Receives the messages on the topic ros_discovery_info.
         writer_reader: Receives the writers found by discovery.
         reader_reader: Receives the readers found by discovery.
@@ -47,12 +50,15 @@ class DdsGraph(Graph):
 
     def __init__(
         self,
+        participant: bytes,
         info_reader: BackendReader,
         writer_reader: EndpointReader,
         reader_reader: EndpointReader,
         participant_reader: EndpointReader | None = None,
     ) -> None:
         super().__init__()
+        self._own = participant
+        self._own_nodes: Sequence[NodeInfo] | None = None  # since the last refresh
         self._info_reader = info_reader
         self._writer_reader = writer_reader
         self._reader_reader = reader_reader
@@ -67,6 +73,11 @@ class DdsGraph(Graph):
         for reader in (self._info_reader, self._writer_reader, self._reader_reader, self._participant_reader):
             if reader is not None:
                 reader.close()
+
+    def set_own_nodes(self, nodes: Sequence[NodeInfo]) -> None:
+        """Set the nodes of this process. Its own messages about them are not read."""
+        with self._lock:
+            self._own_nodes = nodes
 
     def foreign_services(self, peer: DiscoveredEndpoint) -> str:
         """Return the DDS implementation of an endpoint if it sends requests in another form, or "" if not."""
@@ -91,10 +102,10 @@ class DdsGraph(Graph):
             writer: The handle of the client's writer of requests.
         """
         client = self.writer(writer)
-        if not self._readers.keys() >= set(readers):
+        if not all(handle in self._readers for handle in readers):
             self.refresh()
         with self._lock:
-            found = [self._readers[handle] for handle in readers if handle in self._readers]
+            found = [reader for handle in readers if (reader := self._readers.get(handle)) is not None]
         understanding = (reader for reader in found if not self.foreign_services(reader))
         return receives_replies(understanding, client)
 
@@ -103,8 +114,8 @@ class DdsGraph(Graph):
         with self._lock:
             adapting = {
                 writer.participant
-                for writer in self._writers.values()
-                if writer.topic == TOPIC and ADAPTS.encode() in writer.user_data
+                for writer in self._writers.on_topic(TOPIC).values()
+                if ADAPTS.encode() in writer.user_data
             }
             found: dict[int, list[str]] = {}
             for participant, size in self._gid_sizes.items():
@@ -128,14 +139,14 @@ class DdsGraph(Graph):
     def all_writers(self) -> dict[int, DiscoveredEndpoint]:
         """Return the writers of all topics by their handles, without processing discovery messages."""
         with self._lock:
-            return dict(self._writers)
+            return self._writers.copy()
 
     def read_history(self, participant: bytes) -> set[tuple[str, str]]:
         """Return the DDS topics, with their types, on which a participant has transient-local readers."""
         with self._lock:
             return {
                 (reader.topic, reader.type)
-                for reader in self._readers.values()
+                for reader in self._readers
                 if reader.participant == participant and reader.qos.transient_local
             }
 
@@ -150,16 +161,19 @@ class DdsGraph(Graph):
         return changed
 
     def _take_info(self) -> bool:
-        changed = False
+        changed = self._own_nodes is not None
+        if self._own_nodes is not None:
+            self._set_nodes(self._own, self._own_nodes)
+            self._own_nodes = None
         while messages := self._info_reader.take(_BATCH):
             for message, _, _ in messages:
-                if (info := decode_info(message)) is not None:
-                    self._nodes[info.participant] = info.nodes
+                if message[_PARTICIPANT] != self._own and (info := decode_info(message)) is not None:
+                    self._set_nodes(info.participant, info.nodes)
                     self._gid_sizes[info.participant] = info.gid_size
                     changed = True
         return changed
 
-    def _take_endpoints(self, reader: EndpointReader, known: dict[int, DiscoveredEndpoint]) -> bool:
+    def _take_endpoints(self, reader: EndpointReader, known: EndpointTable) -> bool:
         changed = False
         for handle, alive, guid, participant, topic, type_name, (
             depth,
@@ -170,12 +184,16 @@ class DdsGraph(Graph):
             changed = True
             if alive:
                 qos = QoS(max(depth, 1), *policies)
-                known[handle] = DiscoveredEndpoint(
+                endpoint = DiscoveredEndpoint(
                     guid, participant, topic, type_name, qos, user_data, type_hash_of(user_data), partitions
                 )
+                known.store(handle, endpoint)
                 continue
-            departed = known.pop(handle)
-            if known is self._writers and self.foreign_services(departed):
+            if known is not self._writers:
+                known.remove(handle)
+                continue
+            departed = self._remove_writer(handle)
+            if departed is not None and self.foreign_services(departed):
                 self._departed[handle] = departed
                 if len(self._departed) > MAX_DEPARTED_WRITERS:
                     self._departed.popitem(last=False)
@@ -191,6 +209,7 @@ class DdsGraph(Graph):
         return bool(changes)
 
     def _remove_departed(self) -> None:
-        participants = {writer.participant for writer in self._writers.values() if writer.topic == TOPIC}
-        self._nodes = {guid: nodes for guid, nodes in self._nodes.items() if guid in participants}
+        participants = {writer.participant for writer in self._writers.on_topic(TOPIC).values()}
+        for guid in self._nodes.keys() - participants - {self._own}:
+            self._set_nodes(guid, None)
         self._gid_sizes = {guid: size for guid, size in self._gid_sizes.items() if guid in participants}

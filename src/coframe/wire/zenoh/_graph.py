@@ -66,7 +66,6 @@ class ZenohGraph(Graph):
         self._pending: deque[tuple[bool, str]] = deque()  # (declared, token)
         self._limits = TokenLimits()
         self._members: dict[bytes, _Node] = {}  # by session and node
-        self._topics: dict[tuple[bool, str], dict[int, DiscoveredEndpoint]] = {}  # by (is a writer, topic)
         self._changed = changed
         self._closed_error = module.ZError
         self._delete = module.SampleKind.DELETE
@@ -104,7 +103,7 @@ class ZenohGraph(Graph):
         """
         self.refresh()
         with self._lock:
-            others = self._topics.get((writers, endpoint.dds_topic), {})
+            others = (self._writers if writers else self._readers).on_topic(endpoint.dds_topic)
             wanted = endpoint.dds_type
             return {
                 handle: other
@@ -116,8 +115,8 @@ class ZenohGraph(Graph):
         """Return the hash of a type that other nodes announce on a topic, or "" if there is none."""
         self.refresh()
         with self._lock:
-            for writers in (True, False):
-                for other in self._topics.get((writers, endpoint.dds_topic), {}).values():
+            for table in (self._writers, self._readers):
+                for other in table.on_topic(endpoint.dds_topic).values():
                     if other.type == endpoint.dds_type:
                         return other.type_hash
         return ""
@@ -151,9 +150,9 @@ class ZenohGraph(Graph):
             info = self._members[participant].info()
             if info is None:
                 del self._members[participant]
-                self._nodes.pop(participant, None)
+                self._set_nodes(participant, None)
             else:
-                self._nodes[participant] = [info]
+                self._set_nodes(participant, [info])
         return bool(touched)
 
     def _apply(self, text: str, token: Token, *, declared: bool) -> set[bytes]:
@@ -177,8 +176,7 @@ class ZenohGraph(Graph):
 
     def _store(self, is_writer: bool, end: DiscoveredEndpoint) -> None:
         handle = _keys.handle_of(end.guid)
-        (self._writers if is_writer else self._readers)[handle] = end
-        self._topics.setdefault((is_writer, end.topic), {})[handle] = end
+        (self._writers if is_writer else self._readers).store(handle, end)
 
     def _apply_user_data(self, text: str, gid: bytes, user_data: bytes, *, declared: bool) -> None:
         """Store the user data of an endpoint, whose token may arrive earlier or later."""
@@ -193,11 +191,10 @@ class ZenohGraph(Graph):
     def _remove(self, token: Token) -> None:
         for is_writer, end in _endpoints_of(token):
             handle = _keys.handle_of(end.guid)
-            (self._writers if is_writer else self._readers).pop(handle, None)
-            topic = self._topics.get((is_writer, end.topic), {})
-            topic.pop(handle, None)
-            if not topic:
-                self._topics.pop((is_writer, end.topic), None)
+            if is_writer:
+                self._remove_writer(handle)
+            else:
+                self._readers.remove(handle)
 
 
 def _endpoints_of(token: Token) -> Iterator[tuple[bool, DiscoveredEndpoint]]:
