@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_args, is_typeddict
 
 from coframe.viewer.displays._row import FIXED_FRAME, ChoiceOption, ColorOption, FlagOption, NumberOption, TextOption
-from coframe.viewer.displays.rows import DISPLAYS, MAX_AUTOMATIC_DISPLAYS
+from coframe.viewer.displays.rows import DISPLAYS
 from coframe.viewer.protocol import binary_messages, client_messages, common, replay_block, server_messages
 from coframe.viewer.protocol._layout import BinaryField, binary_fields
 from coframe.viewer.protocol._limits import Clamp
@@ -116,8 +116,6 @@ export type OptionSpec = {
 export interface DisplayRow {
   /** Empty for displays without a topic. */
   readonly types: readonly string[];
-  /** Whether topics of these types are displayed without being asked. */
-  readonly automatic: boolean;
   /** Whether tools find points on it. */
   readonly surfaces: boolean;
   /** Whether its lines and meshes can be drawn above images. */
@@ -230,8 +228,7 @@ def displays_typescript() -> str:
     rows = "".join(f"  {row.name}: {json.dumps(_display(row))},\n" for row in DISPLAYS.values())
     return (
         f"// SPDX-License-Identifier: Apache-2.0\n// {DISPLAYS_NOTICE}\n\n{DISPLAYS_PREAMBLE}\n"
-        f"export const FIXED_FRAME = {json.dumps(FIXED_FRAME)};\n"
-        f"export const MAX_AUTOMATIC_DISPLAYS = {MAX_AUTOMATIC_DISPLAYS};\n\n"
+        f"export const FIXED_FRAME = {json.dumps(FIXED_FRAME)};\n\n"
         f"export const DISPLAYS = {{\n{rows}}} as const satisfies Record<string, DisplayRow>;\n\n{DISPLAYS_TYPES}"
     )
 
@@ -239,7 +236,6 @@ def displays_typescript() -> str:
 def _display(row: DisplayRow) -> dict[str, Any]:
     return {
         "types": list(row.messages),
-        "automatic": row.automatic,
         "surfaces": row.has_surfaces,
         "projected": row.projected,
         "options": [_option(option) for option in row.options],

@@ -34,7 +34,7 @@ MessageCodec::Field MessageCodec::make_field(nb::handle cls, const nb::tuple& de
 }
 
 void define_message_codec(nb::module_& module) {
-  nb::class_<MessageCodec>(module, "MessageCodec", "Reads, writes and compares the messages of a class.")
+  nb::class_<MessageCodec>(module, "MessageCodec", "Reads and writes the messages of a class.")
       .def(nb::init<nb::type_object, nb::list, std::size_t>(), nb::arg("cls"), nb::arg("fields"),
            nb::arg("ros1_prefix") = 0,
            "Each field is a tuple (slot, item, container, size, text_bound, dtype). The item is the struct code of a "
@@ -44,8 +44,6 @@ void define_message_codec(nb::module_& module) {
            "array of numbers. `ros1_prefix` is how many bytes a message of ROS 1 has before its fields.")
       .def("encode", &MessageCodec::encode, nb::arg("message"),
            "Return the CDR of a message, or None if Python code has to serialize it.")
-      .def("equal", &MessageCodec::equal, nb::arg("left"), nb::arg("right"),
-           "Return whether two messages are equal, or None if Python code has to compare them.")
       .def(
           "decode",
           [](const MessageCodec& self, nb::handle data, std::size_t max_rest) {

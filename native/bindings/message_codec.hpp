@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the messages of a class from CDR or from the bytes of ROS 1, writes them as CDR, and compares them, slot by
-// slot. What it does not handle (an instance of a subclass, an int in a field of floats, a text that contains NUL,
-// damaged bytes) is left to Python code, which also reports errors.
+// Reads the messages of a class from CDR or from the bytes of ROS 1, and writes them as CDR, slot by slot. What it does
+// not handle (an instance of a subclass, an int in a field of floats, a text that contains NUL, damaged bytes) is left
+// to Python code, which also reports errors.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -22,8 +22,6 @@ class MessageInput;
 
 class MessageCodec {
  public:
-  enum class Answer { kEqual, kDifferent, kUnknown };
-
   // The fields are those that `define_message_codec` describes. `ros1_prefix` is how many bytes a message of ROS 1 has
   // before them.
   MessageCodec(nb::type_object cls, nb::list fields, std::size_t ros1_prefix);
@@ -34,9 +32,6 @@ class MessageCodec {
   nb::object decode(std::span<const std::uint8_t> data, std::size_t max_rest = SIZE_MAX) const;
   // Returns a message of ROS 1; None if Python code has to read it.
   nb::object decode_ros1(std::span<const std::uint8_t> data) const;
-
-  // Returns whether two messages are equal; None if Python code has to compare them.
-  nb::object equal(nb::handle left, nb::handle right) const;
 
   // Writes a message. Returns false if Python code has to serialize it.
   bool put_message(PyObject* message, Output& out) const;
@@ -57,10 +52,6 @@ class MessageCodec {
     // Whether the values are an array.array or a numpy.ndarray. Otherwise, they are a list.
     bool is_numbers() const { return container != kSingle && code != 0 && code != '?'; }
   };
-
-  bool is(PyObject* object) const { return Py_TYPE(object) == type_; }
-  // Both have exactly this class.
-  Answer compare_messages(PyObject* left, PyObject* right) const;
 
   static Field make_field(nb::handle cls, const nb::tuple& description);
   static bool put_field(const Field& field, PyObject* value, Output& out);

@@ -473,7 +473,7 @@ def watch(buffer: Buffer, mailbox: Mailbox, token: int, child: str) -> Watch:
     """Put the token into the mailbox when the edge from `child` to its parent changes; "": any edge."""
 
 class MessageCodec:
-    """Reads, writes and compares the messages of a class."""
+    """Reads and writes the messages of a class."""
 
     def __init__(
         self, cls: type, fields: list[tuple[str, str | MessageCodec, int, int, int, Any]], ros1_prefix: int = 0
@@ -488,9 +488,6 @@ class MessageCodec:
 
     def encode(self, message: Any) -> bytes | None:
         """Return the CDR of a message, or None if Python code has to serialize it."""
-
-    def equal(self, left: Any, right: Any) -> bool | None:
-        """Return whether two messages are equal, or None if Python code has to compare them."""
 
     def decode(self, data: Any, max_rest: int = ...) -> Any:
         """Return the message in CDR bytes, or None if Python code has to read it.

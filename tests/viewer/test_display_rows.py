@@ -22,7 +22,7 @@ from coframe.messages import find, serialize
 from coframe.viewer.displays import CannotDrawError
 from coframe.viewer.displays._renderers import draw_each_message
 from coframe.viewer.displays._row import DisplayRow, NumberOption
-from coframe.viewer.displays.rows import DISPLAY_OF_TYPE, DISPLAYS
+from coframe.viewer.displays.rows import DISPLAY_OF_TYPE, DISPLAYS, MAX_AUTOMATIC_DISPLAYS, displayable
 from coframe.viewer.replay.export import export_replay
 from coframe.viewer.robots.robot_message import make_mesh_table
 from coframe.viewer.rviz.config import RvizConfig
@@ -315,6 +315,29 @@ def test_values_of_rviz_files_become_valid_options():
     assert DISPLAYS["Odometry"].server_options({"Keep": 12.4}).keep == 12
 
 
+def test_the_topics_that_are_displayed_automatically_are_the_most_useful_ones():
+    clouds = [(f"/camera_{letter}/points", "sensor_msgs/msg/PointCloud2") for letter in "abcdef"]
+    others = [
+        ("/global_costmap", "nav_msgs/msg/OccupancyGrid"),
+        ("/odom", "nav_msgs/msg/Odometry"),
+        ("/pose", "geometry_msgs/msg/PoseStamped"),
+        ("/rosout", "rcl_interfaces/msg/Log"),
+        ("/scan", "sensor_msgs/msg/LaserScan"),
+        ("/scan_filtered", "sensor_msgs/msg/LaserScan"),
+        ("/camera/image", "sensor_msgs/msg/Image"),
+        *((f"/plan_{number}", "nav_msgs/msg/Path") for number in range(9)),
+    ]
+    found = displayable(clouds + others)
+    shown = [one["topic"] for one in found if one["automatic"]]
+    assert shown[:2] == ["/scan", "/global_costmap"]
+    assert len(shown) == MAX_AUTOMATIC_DISPLAYS
+    assert {"/odom", "/pose", "/scan_filtered"} <= set(shown)
+    assert [topic for topic in shown if "points" in topic] == ["/camera_a/points", "/camera_b/points"]
+    assert "/camera/image" not in shown, "images need much bandwidth"
+    assert [one["topic"] for one in found if not one["display"]] == ["/rosout"]
+    assert {(one["topic"], one["type"]) for one in found} == {*clouds, *others}, "all topics are listed"
+
+
 def test_a_row_is_all_that_a_new_display_needs(monkeypatch):
     """A module with a row draws messages of its type; no other list in the server contains displays."""
     made, _ = sample("sensor_msgs/msg/Range")
@@ -333,7 +356,7 @@ def test_a_row_is_all_that_a_new_display_needs(monkeypatch):
         [{"class": "Echo", "name": "mine", "enabled": True, "topic": "/t", "options": {}}], {}, {}
     )
     assert [one["class"] for one in config.description()["displays"]] == ["Echo"]
-    from coframe.viewer.displays.rows import displayable, make_renderer
+    from coframe.viewer.displays.rows import make_renderer
 
     assert displayable([("/r", "sensor_msgs/msg/Range")])[0]["display"] == "Echo"
     messages = type("Messages", (), {"type": "sensor_msgs/msg/Range"})()

@@ -17,14 +17,16 @@ import { JointsPanel } from "./panels/joints";
 import { marksOf } from "./model/marks";
 import { Forest, Model } from "./model/model";
 import { Overlay } from "./panels/overlay";
+import { PartsPanel } from "./panels/parts";
 import { Panel } from "./panels/side_panel";
 import { exposeProbe } from "./probe";
 import type { BinaryMessage, ServerMessage } from "./protocol/messages";
 import { openReplay } from "./replay/source";
+import { Selector } from "./displays/selector";
 import { NodesView } from "./scene/nodes";
 import { RvizPanel } from "./panels/rviz";
 import { ScenePanel } from "./panels/scene";
-import { Shortcuts } from "./panels/shortcuts";
+import { cameraKeys, Shortcuts } from "./panels/shortcuts";
 import type { MessageSource } from "./protocol/source";
 import { Theme } from "./util/theme";
 import { Timeline } from "./panels/timeline";
@@ -33,6 +35,7 @@ import { Toolbar } from "./panels/toolbar";
 import { ToolSettings } from "./model/tools";
 import { TreePanel } from "./panels/tree";
 import { View } from "./scene/view";
+import { ViewsPanel } from "./panels/views";
 
 const HIDDEN_PING_MS = 1000;
 
@@ -53,7 +56,7 @@ export function showPage(source: MessageSource): void {
     { id: "displays", title: "Displays", body: new DisplaysPanel(model, displays).element },
     { id: "scene", title: "Scene", body: scene.element },
     { id: "joints", title: "Joints", body: new JointsPanel(model, displays).element },
-    { id: "rviz", title: "RViz file", body: rviz.element },
+    { id: "rviz", title: "RViz", body: rviz.element },
   ]);
   panel.setAvailable("scene", false);
   model.on("findings", ({ findings }) =>
@@ -65,9 +68,12 @@ export function showPage(source: MessageSource): void {
     const { makeDock } = await import("./panes");
     return (root, onChange) => makeDock(root, model, theme, onChange);
   });
-  const overlay = new Overlay(byId("overlay"), byId("notice"), model, view);
+  const overlay = new Overlay(byId("overlay"), byId("notice"), model, view, () => views.toggle());
   const toolbar = new Toolbar(byId("overlay"), model, view, toolSettings);
+  const views = new ViewsPanel(byId("overlay"), model, view);
   new Inspector(byId("inspector"), model, view);
+  new PartsPanel(byId("parts"), model, view, source.live);
+  new Selector(model, view, displays);
   new AdjustPanel(byId("inspector"), model, view, source.live);
 
   const shortcuts = new Shortcuts([
@@ -82,6 +88,10 @@ export function showPage(source: MessageSource): void {
     { key: "a", text: "Show everything", act: () => view.fit() },
     { key: "v", text: "Top-down or orbit view", act: () => overlay.toggleTop() },
     { key: "f", text: "Follow the selected frame", act: () => overlay.toggleFollow() },
+    { key: "z", text: "Look at the point that is clicked next", act: () => view.tools.toggle("focus") },
+    { key: "w", text: "Numbers of the view, saved views", act: () => views.toggle() },
+    ...cameraKeys(view.renderer.camera),
+    { key: "k", text: "Select: click anything, or drag a rectangle", act: () => view.tools.toggle("select") },
     { key: "m", text: "Measure", act: () => overlay.toggleMeasure() },
     { key: "n", text: "Measure, as in RViz", act: () => overlay.toggleMeasure() },
     { key: "p", text: "2D pose estimate", act: () => toolbar.toggle("estimate") },
@@ -127,7 +137,10 @@ export function showPage(source: MessageSource): void {
 
   function deselect(): void {
     if (view.tools.active) view.tools.choose(null);
-    else model.select(null);
+    else {
+      model.select(null);
+      model.emit("parts", []);
+    }
   }
 
   function receive(message: ServerMessage): void {
@@ -170,6 +183,7 @@ export function showPage(source: MessageSource): void {
       case "page":
       case "rviz":
       case "relation":
+      case "picked":
       case "timeline":
       case "published":
       case "replay":

@@ -12,7 +12,7 @@ import threading
 import time
 import weakref
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -26,7 +26,6 @@ StartWait = Callable[[_core.Mailbox, int], _core.Wait]
 StartWatch = Callable[[_core.Mailbox, int], _core.Watch]
 Cancel = Callable[[], object]
 
-_IDLE = nullcontext()
 _WAKE_UP = 0  # A token without an entry: it only wakes the thread.
 _NO_LIMIT = -1
 _SPARE_DEADLINES = 100
@@ -133,12 +132,12 @@ class Dispatcher:
         self._mailbox.put(token)  # The token may have been taken before its entry existed.
         return lambda: self._remove(token)
 
-    def inserting(self) -> AbstractContextManager[None]:
-        """Return a context manager for insertions. On exit, it runs the callbacks of completed waits."""
-        return _IDLE if self.is_idle else self._insert_and_process()
-
     @contextmanager
-    def _insert_and_process(self) -> Iterator[None]:
+    def inserting(self) -> Iterator[None]:
+        """Return a context manager for insertions. On exit, it runs the callbacks of completed waits."""
+        if self.is_idle:
+            yield
+            return
         with self._run_lock:
             yield
             tokens = self._mailbox.take()

@@ -12,7 +12,6 @@ from coframe._output import html_tables
 from coframe.messages._fields import CHECKS_FIELDS, Check, attribute, constructor_conversion, number_of
 from coframe.messages._yaml_text import to_yaml
 from coframe.messages.definition import AbstractSequence, AbstractType, describe
-from coframe.messages.native_codec import native_codec
 from coframe.messages.registry import classes, find
 
 
@@ -65,13 +64,9 @@ class Message(metaclass=MessageType):
         return dict(cls._fields_and_field_types)
 
     def __values(self) -> list[Any]:
-        return [getattr(self, f"_{name}") for name in self._fields_and_field_types]
+        return [getattr(self, slot) for slot in self.__slots__]
 
     def __eq__(self, other: object) -> bool:
-        codec = native_codec(type(self))
-        equal = codec.equal(self, other) if codec else None
-        if equal is not None:
-            return equal
         if not isinstance(other, type(self)):
             return False
         return not any(map(_differ, self.__values(), other.__values()))

@@ -49,9 +49,7 @@ def native_codec(cls: Any) -> _core.MessageCodec | None:
 
 def _new_codec(cls: Any) -> _core.MessageCodec | None:
     try:
-        # Not __slots__: a class that a user derives from a message class may have its own.
-        names = cls._fields_and_field_types
-        fields = [_field(f"_{name}", type_) for name, type_ in zip(names, cls.SLOT_TYPES, strict=True)]
+        fields = [_field(slot, type_) for slot, type_ in zip(cls.__slots__, cls.SLOT_TYPES, strict=True)]
         return _core.MessageCodec(cls, fields, struct.calcsize(f"<{ros1_prefix(cls)}"))
     except TypeError:
         return None

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, overload
 
 import builtin_interfaces.msg
 from coframe.distributions import since
@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 __all__ = ["CONVERSION_CONSTANT", "Time"]
 
 CONVERSION_CONSTANT = S_TO_NS
-
-_MESSAGE_LIMIT = 2**31  # seconds of a message
 
 
 class Time:
@@ -139,16 +137,11 @@ class Time:
 
     def to_msg(self) -> builtin_interfaces.msg.Time:
         """Return the time as a `builtin_interfaces/Time`."""
-        seconds, nanoseconds = divmod(self._nanoseconds, S_TO_NS)
-        if 0 <= seconds < _MESSAGE_LIMIT:
-            message: Any = builtin_interfaces.msg.Time()
-            message._sec, message._nanosec = seconds, nanoseconds  # noqa: SLF001 - they need no checks
-            return message  # type: ignore[no-any-return]
+        seconds, nanoseconds = self.seconds_nanoseconds()
         try:
             return builtin_interfaces.msg.Time(sec=seconds, nanosec=nanoseconds)
         except AssertionError as error:
-            end = f"2038-01-19, {_MESSAGE_LIMIT - 1} s after 1970"
-            hint = f"Times in messages end at {end}. If this is now(), check the clock."
+            hint = f"Times in messages end at 2038-01-19, {2**31 - 1} s after 1970. If this is now(), check the clock."
             raise _with_hint(error, hint) from None
 
     @classmethod
@@ -160,8 +153,4 @@ class Time:
         """
         if not isinstance(msg, builtin_interfaces.msg.Time):
             raise TypeError("Must pass a builtin_interfaces.msg.Time object")
-        if cls is Time and type(clock_type) is ClockType and msg.sec >= 0:
-            time = Time.__new__(cls)
-            time._nanoseconds, time._clock_type = msg.sec * S_TO_NS + msg.nanosec, clock_type  # noqa: SLF001
-            return time
         return cls(seconds=msg.sec, nanoseconds=msg.nanosec, clock_type=clock_type)

@@ -106,12 +106,8 @@ class Buffer(tf2.BufferCore, BufferInterface):
         Raises:
             TransformException: The transform is not available. The subclass and the message give the reason.
         """
-        wait = _wait(timeout)
-        found: TransformStamped | None = self._Coframe__buffer._lookup_message(target_frame, source_frame, time)
-        if found is not None:
-            return found
         target, source = _convert.text(target_frame, 1), _convert.text(source_frame, 2)
-        return self._Coframe__lookup(target, source, _convert.nanoseconds(time, "time"), wait)
+        return self._Coframe__lookup(target, source, _convert.nanoseconds(time, "time"), _wait(timeout))
 
     def lookup_transform_full(
         self,

@@ -278,7 +278,8 @@ def test_camera_images_are_shown_without_a_transform_of_the_camera(view, open_pa
     page = open_page(view(recording(tmp_path, *messages), fixed="map").url).drawn()
     page.tab("displays")
     for topic in topics:
-        page.raw.select_option("#body-displays select[aria-label='Add a display']", label=f"Image: {topic}")
+        page.click("#add-display")
+        page.click(f".add-row[data-topic='{topic}']")
     go_to(page, 5)
     shown = page.wait(
         lambda: len(found := page.evaluate(IMAGES)) == 2 and {one["text"]: one for one in found}, "both images"

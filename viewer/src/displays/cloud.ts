@@ -4,6 +4,8 @@
 import * as THREE from "three";
 import { srgb } from "../scene/frames";
 import type { Cloud, DisplayOptions } from "../protocol/messages";
+import type { PickedPart } from "../model/picked";
+import type { Hit } from "../scene/picking";
 import { MessageDisplay } from "./display";
 
 const SAMPLES = 4096;
@@ -42,6 +44,19 @@ export class CloudDisplay extends MessageDisplay<Cloud, "LaserScan" | "PointClou
       colors,
       first: Array.from(message.points.subarray(0, 3 * 1024)),
     };
+  }
+
+  protected override partAt(message: Cloud, object: THREE.Object3D, hit: Hit): PickedPart {
+    return { ...super.partAt(message, object, hit), title: "Point" };
+  }
+
+  protected override *partsOf(message: Cloud, object: THREE.Object3D): Iterable<Hit> {
+    object.updateWorldMatrix(true, false);
+    const hit = { object, point: new THREE.Vector3(), index: 0 };
+    for (; hit.index < message.count; hit.index++) {
+      hit.point.fromArray(message.points, hit.index * 3).applyMatrix4(object.matrixWorld);
+      yield hit;
+    }
   }
 
   private mode(message: Cloud): "rgb" | "scalar" | "axis" | "flat" {

@@ -3,9 +3,18 @@
 
 import * as THREE from "three";
 import type { Model } from "../model/model";
+import type { PickedGroup, PickedPart } from "../model/picked";
 import type { FramePoses } from "../scene/frame_poses";
 import { DISPLAYS, type DisplayClass } from "../generated/displays";
-import type { DisplayMessage, DisplayPose, JsonObject, DisplayOptions, FrameUpdate } from "../protocol/messages";
+import type {
+  DisplayMessage,
+  DisplayPose,
+  JsonObject,
+  DisplayOptions,
+  FrameUpdate,
+  Vector,
+} from "../protocol/messages";
+import type { Hit } from "../scene/picking";
 import type { Palette } from "../util/theme";
 import { Options } from "./options";
 
@@ -66,6 +75,16 @@ export abstract class Display<C extends DisplayClass = DisplayClass> {
     return new THREE.Box3();
   }
 
+  /** The part of the display that is hit; null if it cannot be selected. */
+  pick(_hit: Hit): PickedPart | null {
+    return null;
+  }
+
+  /** The parts at points of the scene for which `inside` returns true. */
+  pickAll(_inside: (point: THREE.Vector3) => boolean): PickedGroup {
+    return { display: this.config.name, count: 0, parts: [] };
+  }
+
   /** A summary of what is drawn, for tests. */
   probe(): Record<string, unknown> {
     return { class: this.config.class, enabled: this.config.enabled, ...this.status };
@@ -84,6 +103,8 @@ export function displayClass(name: string): DisplayClass | null {
 }
 
 const MAX_WAITING = 16;
+/** The most parts of a display that are listed when a rectangle selects more. */
+export const MAX_LISTED_PARTS = 100;
 /** Larger coordinates are ignored when fitting the camera, because one outlier would make everything else tiny. */
 const MAX_FIT_COORDINATE_M = 200;
 
@@ -178,6 +199,49 @@ export abstract class MessageDisplay<
     };
   }
 
+  override pick(hit: Hit): PickedPart | null {
+    for (const { object, message } of this.drawn.values())
+      if (isInside(hit.object, object)) return this.partAt(message, object, hit);
+    return null;
+  }
+
+  override pickAll(inside: (point: THREE.Vector3) => boolean): PickedGroup {
+    const group = super.pickAll(inside);
+    for (const { object, message } of this.drawn.values()) {
+      if (!object.visible) continue;
+      for (const hit of this.partsOf(message, object)) {
+        if (!inside(hit.point)) continue;
+        group.count++;
+        if (group.parts.length < MAX_LISTED_PARTS) group.parts.push(this.partAt(message, object, hit));
+      }
+    }
+    return group;
+  }
+
+  /** Describes a part of a message; displays add what they know. */
+  protected partAt(message: M, object: THREE.Object3D, hit: Hit): PickedPart {
+    return {
+      title: this.kind,
+      display: this.config.name,
+      topic: this.config.topic,
+      frame: null,
+      stamp: "stamp" in message ? message.stamp : null,
+      position: this.inFixed(hit.point) as Vector,
+      rows: [],
+      source: {
+        id: this.id,
+        sequence: message.sequence,
+        local: object.worldToLocal(hit.point.clone()).toArray(),
+      },
+    };
+  }
+
+  /** The parts that a rectangle can select: by default the center of what is drawn. The hits may be reused. */
+  protected *partsOf(_message: M, object: THREE.Object3D): Iterable<Hit> {
+    const box = new THREE.Box3().setFromObject(object);
+    if (!box.isEmpty()) yield { object, point: box.getCenter(new THREE.Vector3()), index: null };
+  }
+
   protected describe(_message: M, _object: THREE.Object3D): Record<string, unknown> {
     return {};
   }
@@ -223,6 +287,12 @@ export abstract class MessageDisplay<
     const waiting = [...this.drawn].filter(([, entry]) => !entry.object.visible);
     for (const [sequence] of waiting.slice(0, Math.max(0, waiting.length - MAX_WAITING))) this.removeMessage(sequence);
   }
+}
+
+/** Whether an object is another one or one of its descendants. */
+export function isInside(object: THREE.Object3D, root: THREE.Object3D): boolean {
+  for (let at: THREE.Object3D | null = object; at; at = at.parent) if (at === root) return true;
+  return false;
 }
 
 /** Frees the graphics resources of an object and its descendants, except those marked `userData.shared`. */

@@ -3,7 +3,7 @@
 
 import * as THREE from "three";
 import { Meshes } from "../scene/meshes";
-import { DISPLAYS, MAX_AUTOMATIC_DISPLAYS } from "../generated/displays";
+import { DISPLAYS } from "../generated/displays";
 import type {
   DisplayMessage,
   DisplayStatus,
@@ -30,7 +30,6 @@ export class Displays {
   private readonly meshes = new Meshes();
   private readonly context: Context;
   private readonly listeners: (() => void)[] = [];
-  private readonly offered = new Set<string>();
   private nextId = 1;
   /** Whether new topics are displayed automatically, until the user or a file changes the list. */
   private automatic = true;
@@ -100,8 +99,7 @@ export class Displays {
 
   remove(display: Display): void {
     this.automatic = false;
-    this.discard(display);
-    this.list = this.list.filter((other) => other !== display);
+    this.drop(display);
     this.changed();
   }
 
@@ -171,16 +169,63 @@ export class Displays {
     this.offer(this.model.topics);
   }
 
+  /** Displays the topics that the server has chosen, which may change while topics appear. */
   private offer(topics: DisplayTopic[]): void {
     if (!this.automatic || !this.started) return;
-    for (const { topic, display } of topics) {
-      const kind = displayClass(display);
-      const shown = this.list.filter((other) => other instanceof MessageDisplay).length;
-      if (this.offered.has(topic) || !kind || !DISPLAYS[kind].automatic || shown >= MAX_AUTOMATIC_DISPLAYS) continue;
-      this.offered.add(topic);
+    const chosen = new Set(topics.filter(({ automatic }) => automatic).map(({ topic }) => topic));
+    const isReplaced = (display: Display): boolean =>
+      display instanceof MessageDisplay && display.config.topic !== null && !chosen.has(display.config.topic);
+    // A topic that is gone may come back; it makes room only for another one.
+    if (chosen.size > 0)
+      for (const display of this.list.filter(isReplaced))
+        if (topics.some(({ topic }) => topic === display.config.topic)) this.drop(display);
+    for (const { topic, display, automatic } of topics) {
+      const shown = this.list.some((other) => other.config.topic === topic && other instanceof MessageDisplay);
+      if (!automatic || shown || !displayClass(display)) continue;
       this.create({ class: display, name: this.freeName(display), enabled: true, topic, options: {} });
     }
     this.notify();
+  }
+
+  private drop(display: Display): void {
+    this.discard(display);
+    this.list = this.list.filter((other) => other !== display);
+  }
+
+  /** The topics that could be displayed and are not. */
+  get omitted(): DisplayTopic[] {
+    const shown = new Set(this.list.map(({ config }) => config.topic));
+    return this.model.topics.filter(({ topic, display }) => displayClass(display) && !shown.has(topic));
+  }
+
+  rename(display: Display, name: string): void {
+    const wanted = name.trim();
+    if (!wanted || wanted === display.config.name) return;
+    this.automatic = false;
+    display.config.name = this.freeName(wanted);
+    this.changed();
+  }
+
+  /** Adds a display with the same topic and options after it. */
+  duplicate(display: Display): void {
+    this.automatic = false;
+    const config = structuredClone(display.config);
+    const made = this.create({ ...config, name: this.freeName(config.name) });
+    if (made) {
+      this.list.splice(this.list.indexOf(display) + 1, 0, ...this.list.splice(this.list.indexOf(made), 1));
+      if (made instanceof RobotDisplay && display instanceof RobotDisplay && display.robot)
+        made.setRobot(display.robot);
+    }
+    this.changed();
+  }
+
+  /** Moves a display in the list, which is the order in an .rviz file. */
+  move(display: Display, by: 1 | -1): void {
+    const at = this.list.indexOf(display);
+    const to = Math.max(0, Math.min(this.list.length - 1, at + by));
+    this.automatic = false;
+    this.list.splice(to, 0, ...this.list.splice(at, 1));
+    this.changed();
   }
 
   private setRobot(robot: RobotModel): void {

@@ -3,6 +3,8 @@
 
 import * as THREE from "three";
 import type { Grid } from "../protocol/messages";
+import type { PickedPart } from "../model/picked";
+import type { Hit } from "../scene/picking";
 import { MessageDisplay } from "./display";
 
 const MAX_TEXTURE_SIZE = 8192;
@@ -31,6 +33,25 @@ export class MapDisplay extends MessageDisplay<Grid, "Map"> {
     mesh.quaternion.fromArray(message.origin, 3);
     group.add(mesh);
     return group;
+  }
+
+  protected override partAt(message: Grid, object: THREE.Object3D, hit: Hit): PickedPart {
+    const part = super.partAt(message, object, hit);
+    const { width, height, resolution, cells } = message;
+    const { x, y } = hit.object.worldToLocal(hit.point.clone());
+    const [column, row] = [Math.floor(x / resolution), Math.floor(y / resolution)];
+    if (!(column >= 0 && column < width && row >= 0 && row < height)) return part;
+    const value = cells[row * width + column] as number;
+    const meaning = value < 0 ? "unknown" : value === 0 ? "free" : value === 100 ? "occupied" : "";
+    return {
+      ...part,
+      title: "Cell",
+      rows: [
+        ["cell", `${column}, ${row}`],
+        ["value", meaning ? `${value} (${meaning})` : String(value)],
+        ["resolution", `${Number(resolution.toPrecision(6))} m`],
+      ],
+    };
   }
 
   private material(texture: THREE.Texture): THREE.ShaderMaterial {

@@ -9,10 +9,19 @@ import { materialsOf, type Meshes } from "../scene/meshes";
 import { textSprite } from "../scene/text_sprite";
 import { slice, type DisplayMessage, type MarkerItem, type Shapes, type Vector } from "../protocol/messages";
 import { arrowGeometry } from "./arrows";
-import { MessageDisplay, type Context, type DisplayConfig } from "./display";
+import type { PickedPart } from "../model/picked";
+import type { Hit } from "../scene/picking";
+import { isInside, MessageDisplay, type Context, type DisplayConfig } from "./display";
 
 const MAX_NAMESPACES = 200;
 const MAX_TEXT = 200;
+/** The names of the types, in the order of visualization_msgs/Marker. */
+const TYPE_NAMES = [
+  ..."ARROW CUBE SPHERE CYLINDER LINE_STRIP LINE_LIST CUBE_LIST SPHERE_LIST POINTS".split(" "),
+  ..."TEXT_VIEW_FACING MESH_RESOURCE TRIANGLE_LIST ARROW_STRIP".split(" "),
+];
+/** The types with several parts, of which one is hit. */
+const LISTS = new Set([4, 5, 6, 7, 8, 11]);
 
 export class MarkersDisplay extends MessageDisplay<Shapes, "Marker" | "MarkerArray"> {
   constructor(
@@ -68,10 +77,41 @@ export class MarkersDisplay extends MessageDisplay<Shapes, "Marker" | "MarkerArr
       if (!object) continue;
       object.position.fromArray(item.pose);
       object.quaternion.fromArray(item.pose, 3).normalize();
+      object.userData.item = item;
       object.userData.marker = { ns: item.ns, id: item.id, type: item.type };
       group.add(object);
     }
     return group;
+  }
+
+  protected override partAt(message: Shapes, object: THREE.Object3D, hit: Hit): PickedPart {
+    const part = super.partAt(message, object, hit);
+    const item = object.children.find((child) => isInside(hit.object, child))?.userData.item as MarkerItem | undefined;
+    if (!item) return part;
+    const numbers = (values: readonly (number | null)[]): string =>
+      values.map((value) => Number((value ?? NaN).toPrecision(6))).join(", ");
+    return {
+      ...part,
+      title: `Marker ${item.ns ? `${item.ns} ` : ""}${item.id}`,
+      rows: [
+        ["namespace", item.ns],
+        ["id", String(item.id)],
+        ["type", TYPE_NAMES[item.type] ?? String(item.type)],
+        ["pose", numbers(item.pose)],
+        ["scale", numbers(item.scale)],
+        ["color", numbers(item.rgba)],
+        ["text", item.text],
+        ["mesh", item.mesh ?? ""],
+        ["part", hit.index !== null && LISTS.has(item.type) ? String(hit.index) : ""],
+      ],
+    };
+  }
+
+  protected override *partsOf(_message: Shapes, object: THREE.Object3D): Iterable<Hit> {
+    for (const child of object.children) {
+      const box = new THREE.Box3().setFromObject(child);
+      if (!box.isEmpty()) yield { object: child, point: box.getCenter(new THREE.Vector3()), index: null };
+    }
   }
 
   private marker(item: DrawableMarker, payload: Float32Array): THREE.Object3D | null {

@@ -4,9 +4,11 @@
 import * as THREE from "three";
 import { hasImage, materialsOf, MISSING_TEXTURE, type Meshes } from "../scene/meshes";
 import type { FramePoses } from "../scene/frame_poses";
-import type { FrameUpdate, RobotLink, RobotModel, RobotShape } from "../protocol/messages";
+import type { PickedGroup, PickedPart } from "../model/picked";
+import type { Hit } from "../scene/picking";
+import type { FrameUpdate, RobotLink, RobotModel, RobotShape, Vector } from "../protocol/messages";
 import { IDENTITY, type Pose } from "../util/math";
-import { Display, release, type Context, type DisplayConfig } from "./display";
+import { Display, isInside, MAX_LISTED_PARTS, release, type Context, type DisplayConfig } from "./display";
 import { Kinematics, type KnownPose } from "./robot_kinematics";
 
 /** Shinier surfaces would be white in the light of the scene. */
@@ -24,6 +26,7 @@ export class RobotDisplay extends Display<"RobotModel"> {
   /** The number of meshes being loaded. */
   loading = 0;
   private readonly problems: string[] = [];
+  private origin: readonly number[] = [0, 0, 0];
 
   constructor(
     id: number,
@@ -71,6 +74,48 @@ export class RobotDisplay extends Display<"RobotModel"> {
       loading: this.loading,
       visible,
       links: this.linkPoses(),
+    };
+  }
+
+  override pick(hit: Hit): PickedPart | null {
+    for (const [name, link] of this.links) if (isInside(hit.object, link)) return this.partOf(name, hit.point);
+    return null;
+  }
+
+  override pickAll(inside: (point: THREE.Vector3) => boolean): PickedGroup {
+    const group = super.pickAll(inside);
+    if (!this.model.visible) return group;
+    for (const [name, link] of this.links) {
+      const box = new THREE.Box3().setFromObject(link);
+      const center = box.getCenter(new THREE.Vector3());
+      if (box.isEmpty() || !inside(center)) continue;
+      group.count++;
+      if (group.parts.length < MAX_LISTED_PARTS) group.parts.push(this.partOf(name, center));
+    }
+    return group;
+  }
+
+  /** Describes a link at a point of the scene. */
+  private partOf(name: string, point: THREE.Vector3): PickedPart {
+    const { robot } = this;
+    const joint = robot?.joints.find(({ child }) => child === name);
+    const shapes = robot?.links.find((link) => link.name === name)?.visuals ?? [];
+    const meshes = shapes.flatMap(({ mesh }) => (mesh === null ? [] : [mesh.replace(/^.*\//, "")]));
+    return {
+      title: `Link ${name}`,
+      display: this.config.name,
+      topic: robot?.description_topic ?? null,
+      frame: this.options.text("TF Prefix") + name,
+      stamp: null,
+      position: point.toArray().map((value, k) => value + (this.origin[k] as number)) as Vector,
+      rows: [
+        ["robot", robot?.name ?? ""],
+        ["joint", joint ? `${joint.name} (${joint.type})` : ""],
+        ["parent link", joint?.parent ?? ""],
+        ["shapes", shapes.map(({ kind }) => kind).join(", ")],
+        ["mesh", meshes.join(", ")],
+      ],
+      source: null,
     };
   }
 
@@ -206,6 +251,7 @@ export class RobotDisplay extends Display<"RobotModel"> {
     const known: KnownPose = (link) => framePose(framePoses, this.context.model, prefix + link);
     const root = kinematics.root(this.positions, known);
     this.model.visible = true;
+    this.origin = framePoses.origin;
     if (!root && !this.problems.length)
       this.status = {
         state: "waiting",

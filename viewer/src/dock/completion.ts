@@ -17,6 +17,10 @@ export class CompletedInput {
   private items: string[] = [];
   private chosen = -1;
   private requested = 0;
+  /** The last request whose answer has arrived. */
+  private answered = 0;
+  /** Whether the user has pressed Enter before the answer. */
+  private enters = false;
 
   /** `act` is called with the text when the user presses Enter or chooses a complete item. */
   constructor(
@@ -43,12 +47,16 @@ export class CompletedInput {
     this.input.addEventListener("blur", () => this.show([]));
     this.input.addEventListener("keydown", (event) => this.key(event));
     model.on("completions", ({ id, items }) => {
-      if (id === this.requested && document.activeElement === this.input) this.show(items);
+      if (id !== this.requested || document.activeElement !== this.input) return;
+      this.answered = id;
+      this.show(items);
+      if (this.enters) this.enter();
     });
   }
 
   private request(): void {
     this.requested = ++lastId;
+    this.enters = false;
     this.model.send({ type: "complete", id: this.requested, subject: this.kind, text: this.input.value });
   }
 
@@ -81,11 +89,21 @@ export class CompletedInput {
     } else if (event.key === "Enter") {
       const item = this.items[this.chosen];
       if (item !== undefined) this.accept(item);
-      else this.finish();
+      else this.enter();
     } else if (event.key === "Escape") {
       if (this.list.hidden) this.input.blur();
       this.show([]);
     }
+  }
+
+  /** Uses the text, or the first suggestion if the text is only a part of one. Waits for suggestions on their way. */
+  private enter(): void {
+    const text = this.input.value.trim();
+    this.enters = this.model.connected && this.answered !== this.requested;
+    if (this.enters) return;
+    const first = this.items[0];
+    if (text && first !== undefined && !this.items.includes(text)) this.accept(first);
+    else this.finish();
   }
 
   private choose(i: number): void {

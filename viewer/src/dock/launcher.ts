@@ -21,14 +21,15 @@ const PANES: readonly (readonly [id: PaneId, text: string, detail: string, key: 
 
 export class DockLauncher {
   private dock: Promise<Dock> | null = null;
+  private isLoaded = false;
 
   constructor(
     private readonly root: HTMLElement,
-    model: Model,
+    private readonly model: Model,
     private readonly load: () => Promise<MakeDock>,
   ) {
-    model.on("plot", () => this.show("plots"));
-    model.on("inspect", () => this.show("message"));
+    model.on("plot", (expression) => this.showFor("plots", "plot", expression));
+    model.on("inspect", (topic) => this.showFor("message", "inspect", topic));
   }
 
   /** Opens the panels of the link or of the last session. */
@@ -49,6 +50,15 @@ export class DockLauncher {
     return PANES.map(([id, text, , key]) => ({ key, text, act: () => this.toggle(id) }));
   }
 
+  /** Opens a panel for a request, which a panel that is only loaded now has missed. */
+  private showFor(id: PaneId, event: "plot" | "inspect", text: string): void {
+    const missed = !this.isLoaded;
+    this.use((dock) => {
+      dock.show(id, true);
+      if (missed) this.model.emit(event, text);
+    });
+  }
+
   private show(id: PaneId): void {
     this.use((dock) => dock.show(id, true));
   }
@@ -64,7 +74,11 @@ export class DockLauncher {
         link("panel", shown);
       }),
     );
-    this.dock.then(act).catch((error: unknown) => {
+    const loaded = this.dock.then((dock) => {
+      this.isLoaded = true;
+      act(dock);
+    });
+    loaded.catch((error: unknown) => {
       this.dock = null;
       toast("The panels cannot be loaded. Is the server still running?", String(error));
     });

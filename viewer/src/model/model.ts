@@ -3,6 +3,7 @@
 
 import { Emitter } from "../util/emitter";
 import type { Mark } from "./marks";
+import type { PickedGroup } from "./picked";
 import type {
   ClientMessage,
   CodePage,
@@ -17,6 +18,7 @@ import type {
   LogEntries,
   NodeGeometry,
   NodeGraph,
+  PartDetails,
   ProblemReport,
   PublishResult,
   RemovedNodes,
@@ -46,6 +48,10 @@ export interface ModelEvents {
   message: DisplayMessage;
   rviz: RvizConfiguration;
   relation: Relation;
+  /** The answer about a selected part. */
+  picked: PartDetails;
+  /** The selected parts of the scene; empty if there are none. */
+  parts: readonly PickedGroup[];
   timeline: Timeline;
   problem: ProblemReport;
   findings: FindingEntries;
@@ -237,6 +243,14 @@ export class Model extends Emitter<ModelEvents> {
       this.seek = { at: Math.round(at), since: performance.now() };
       this.send({ type: "time", mode: "at", at: Math.round(at), playing, speed, loop });
     }
+  }
+
+  private graphUsers = 0;
+
+  /** Requests the graph of nodes and topics for one more part of the page, or for one less. */
+  useGraph(used: boolean): void {
+    this.graphUsers = Math.max(0, this.graphUsers + (used ? 1 : -1));
+    if (used || this.graphUsers === 0) this.send({ type: "graph", shown: used });
   }
 
   /** Stores and announces a problem. */

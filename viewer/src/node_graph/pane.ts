@@ -64,14 +64,15 @@ export class GraphPane implements Pane {
 
   open(): void {
     this.isOpen = true;
-    this.request();
+    this.graph = null;
+    this.model.useGraph(true);
   }
 
   close(): void {
     this.isOpen = false;
     this.graph = null;
     this.content.replaceChildren();
-    this.model.send({ type: "graph", shown: false });
+    this.model.useGraph(false);
   }
 
   private request(): void {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The Displays panel: the displays with their options, and a list of displays to add. */
 
-import { displayClass, MessageDisplay, type Display } from "../displays/display";
+import { MessageDisplay, type Display } from "../displays/display";
 import type { Displays } from "../displays/manager";
 import { MarkersDisplay } from "../displays/markers";
 import { rvizColor } from "../displays/options";
 import { DISPLAYS, FIXED_FRAME, type OptionSpec } from "../generated/displays";
+import { AddDisplay } from "./add_display";
 import { fillSelect, h, iconButton, setText, shorten } from "../util/dom";
 import type { Model } from "../model/model";
 
@@ -13,50 +14,54 @@ interface Card {
   display: Display;
   element: HTMLElement;
   head: HTMLElement;
+  name: HTMLElement;
   box: HTMLInputElement;
   detail: HTMLElement;
   status: HTMLElement;
   body: HTMLElement | null;
 }
 
-const WITHOUT_TOPIC = Object.entries(DISPLAYS).flatMap(([kind, { types }]) => (types.length === 0 ? [kind] : []));
+const MAX_OMITTED = 40;
 
 export class DisplaysPanel {
   readonly element: HTMLElement;
   private readonly cards = h("div");
-  private readonly addSelect: HTMLSelectElement;
+  private readonly omitted = h("button", { type: "button", class: "small link", id: "omitted", hidden: true });
   private readonly cardsById = new Map<number, Card>();
 
   constructor(
     private readonly model: Model,
     private readonly displays: Displays,
   ) {
-    this.addSelect = h("select", { aria: { label: "Add a display" }, on: { change: () => this.add() } });
-    this.element = h("section", { class: "tab-body" }, h("div", { class: "toolbar" }, this.addSelect), this.cards);
-    displays.onChange(() => this.render());
-    model.on("topics", () => this.fillAddSelect());
-    setInterval(() => this.updateCards(), 500);
-    this.fillAddSelect();
-  }
-
-  private fillAddSelect(): void {
-    const topics = this.model.topics.filter(({ display }) => displayClass(display));
-    fillSelect(
-      this.addSelect,
-      [
-        ["", "Add a display…"],
-        ...WITHOUT_TOPIC.map((name) => [JSON.stringify([name, null]), name] as const),
-        ...topics.map(({ topic, display }) => [JSON.stringify([display, topic]), `${display}: ${topic}`] as const),
-      ],
-      "",
+    const dialog = new AddDisplay(model, displays);
+    const add = (): void => dialog.show();
+    this.omitted.addEventListener("click", add);
+    this.element = h(
+      "section",
+      { class: "tab-body" },
+      h(
+        "div",
+        { class: "toolbar" },
+        h("button", { type: "button", id: "add-display", on: { click: add } }, "Add a display…"),
+        this.omitted,
+      ),
+      this.cards,
     );
+    displays.onChange(() => this.render());
+    model.on("topics", () => this.showOmitted());
+    setInterval(() => this.updateCards(), 500);
   }
 
-  private add(): void {
-    if (!this.addSelect.value) return;
-    const [kind, topic] = JSON.parse(this.addSelect.value) as [string, string | null];
-    this.addSelect.value = "";
-    this.displays.add(kind, topic);
+  /** Says how many topics are not displayed. */
+  private showOmitted(): void {
+    const { omitted } = this.displays;
+    this.omitted.hidden = omitted.length === 0;
+    const topics = omitted.length === 1 ? "1 topic is" : `${omitted.length} topics are`;
+    setText(this.omitted, `${topics} not displayed`);
+    this.omitted.title = omitted
+      .slice(0, MAX_OMITTED)
+      .map(({ topic }) => shorten(topic, 80))
+      .join("\n");
   }
 
   private render(): void {
@@ -68,13 +73,16 @@ export class DisplaysPanel {
       }
     for (const display of this.displays.list) {
       const card = this.cardsById.get(display.id) ?? this.makeCard(display);
-      this.cards.append(card.element);
+      const place = this.cards.children[this.displays.list.indexOf(display)];
+      if (place !== card.element) this.cards.insertBefore(card.element, place ?? null);
     }
     this.updateCards();
+    this.showOmitted();
   }
 
   private makeCard(display: Display): Card {
     const { config } = display;
+    const name = h("span");
     const box = h("input", {
       type: "checkbox",
       aria: { label: `Show ${config.name}` },
@@ -89,7 +97,7 @@ export class DisplaysPanel {
         aria: { expanded: "false" },
         on: { click: () => this.toggleOptions(card, title) },
       },
-      h("span", {}, shorten(config.name, 60)),
+      name,
       h("span", {}, detail),
     );
     const head = h(
@@ -101,7 +109,7 @@ export class DisplaysPanel {
     );
     const status = h("div", { class: "status", role: "status", hidden: true });
     const element = h("div", { class: "card", data: { display: config.name } }, head, status);
-    const card: Card = { display, element, head, box, detail, status, body: null };
+    const card: Card = { display, element, head, name, box, detail, status, body: null };
     this.cardsById.set(display.id, card);
     return card;
   }
@@ -118,7 +126,10 @@ export class DisplaysPanel {
   }
 
   private updateCards(): void {
-    for (const { display, box, head, detail, status } of this.cardsById.values()) {
+    for (const { display, element, name, box, head, detail, status } of this.cardsById.values()) {
+      setText(name, shorten(display.config.name, 60));
+      element.dataset.display = display.config.name;
+      box.setAttribute("aria-label", `Show ${display.config.name}`);
       box.checked = display.config.enabled;
       const { state, text } = display.config.enabled ? display.status : { state: "ok", text: "" };
       if (head.dataset.state !== state) head.dataset.state = state;
@@ -133,7 +144,7 @@ export class DisplaysPanel {
   }
 
   private options(display: Display): HTMLElement {
-    const body = h("div", { class: "card-body" });
+    const body = h("div", { class: "card-body" }, this.ownFields(display));
     if (display instanceof MessageDisplay) body.append(this.topicField(display));
     const specs: readonly OptionSpec[] = DISPLAYS[display.kind].options;
     const fields = specs.map((spec) => ({ spec, element: this.field(display, spec) }));
@@ -144,8 +155,31 @@ export class DisplaysPanel {
     body.append(...fields.map(({ element }) => element));
     body.addEventListener("change", hide);
     if (display instanceof MarkersDisplay) body.append(this.namespaces(display));
-    if (!body.childElementCount) body.append(h("span", { class: "muted" }, "This display has no options."));
     return body;
+  }
+
+  /** The name and the place of a display. */
+  private ownFields(display: Display): HTMLElement {
+    const input = h("input", { type: "text", aria: { label: "Name" }, maxlength: "100" });
+    input.value = display.config.name;
+    input.addEventListener("change", () => {
+      this.displays.rename(display, input.value);
+      input.value = display.config.name;
+    });
+    const button = (text: string, title: string, act: () => void): HTMLElement =>
+      h("button", { type: "button", class: "small", title, on: { click: act } }, text);
+    return h(
+      "div",
+      {},
+      field("Name", input),
+      h(
+        "div",
+        { class: "buttons" },
+        button("Duplicate", "Add a display with the same topic and options", () => this.displays.duplicate(display)),
+        button("Up", "Move up in the list", () => this.displays.move(display, -1)),
+        button("Down", "Move down in the list", () => this.displays.move(display, 1)),
+      ),
+    );
   }
 
   /** A checkbox for each namespace; new namespaces are added when they are received. */

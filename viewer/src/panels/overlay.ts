@@ -17,6 +17,8 @@ export class Overlay {
   private readonly follow: HTMLButtonElement;
   private readonly ruler: HTMLButtonElement;
   private readonly another: HTMLButtonElement;
+  private readonly selecting: HTMLButtonElement;
+  private readonly focusing: HTMLButtonElement;
   private readonly hint = h("div", { class: "hint numbers", role: "status", id: "measured", hidden: true });
   private readonly following = h("div", { class: "hint", hidden: true });
   private readonly fps = h("div", { class: "fps numbers" });
@@ -29,6 +31,7 @@ export class Overlay {
     private readonly notice: HTMLElement,
     private readonly model: Model,
     private readonly view: View,
+    onViews: () => void,
   ) {
     this.orbit = h(
       "button",
@@ -42,6 +45,12 @@ export class Overlay {
     );
     this.follow = iconButton("target", "Follow the selected frame (f)", () => this.toggleFollow());
     this.ruler = iconButton("ruler", "Measure between two frames or points (m, n)", () => this.toggleMeasure());
+    this.selecting = iconButton("select", "Select: click anything, or drag a rectangle (k)", () =>
+      view.tools.toggle("select"),
+    );
+    this.focusing = iconButton("focus", "Look at the point that is clicked next (z), or double-click it", () =>
+      view.tools.toggle("focus"),
+    );
     this.another = iconButton("plus", "Add a view: from above, around or out of a frame", () => this.addView());
     this.empty = h(
       "div",
@@ -61,7 +70,10 @@ export class Overlay {
         this.top,
         iconButton("fit", "Show everything (a)", () => view.fit()),
         this.follow,
+        this.focusing,
+        this.selecting,
         this.ruler,
+        iconButton("camera", "Numbers of the view, and saved views (w)", onViews),
         this.another,
       ),
       this.fps,
@@ -108,7 +120,13 @@ export class Overlay {
     this.top.setAttribute("aria-pressed", String(camera.mode === "top"));
     this.follow.setAttribute("aria-pressed", String(this.view.followed !== null));
     this.follow.disabled = this.view.followed === null && this.model.selection.frame === null;
-    this.ruler.setAttribute("aria-pressed", String(this.view.measure.active));
+    const { active } = this.view.tools;
+    for (const [button, tool] of [
+      [this.ruler, "measure"],
+      [this.selecting, "select"],
+      [this.focusing, "focus"],
+    ] as const)
+      button.setAttribute("aria-pressed", String(active === tool));
   }
 
   private updateHints(): void {

@@ -1,14 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Keyboard shortcuts, and the help dialog that lists them. */
 
+import type { Camera } from "../scene/camera";
 import { h, iconButton } from "../util/dom";
 
 export interface Shortcut {
   key: string;
   shown?: string;
   text: string;
+  /** Whether the help lists the key; it does by default. */
+  isListed?: boolean;
   act(): void;
 }
+
+const TURN = Math.PI / 24;
+const MOVE = 0.08;
+const ZOOM = 1.2;
+
+/** The keys that move the camera. */
+export function cameraKeys(camera: Camera): Shortcut[] {
+  const arrows = (keys: string, shown: string, text: string, act: (x: number, y: number) => void): Shortcut[] =>
+    ARROWS.map(([name, x, y], i) => ({ key: `${keys}+${name}`, shown, text, isListed: i === 0, act: () => act(x, y) }));
+  return [
+    ...arrows("Shift", "Shift + arrows", "Rotate the camera", (x, y) => camera.turn(x * TURN, y * TURN)),
+    ...arrows("Control", "Ctrl + arrows", "Move the camera", (x, y) => camera.move(x * MOVE, y * MOVE)),
+    { key: "+", shown: "+, -", text: "Zoom in and out", act: () => camera.zoom(1 / ZOOM) },
+    { key: "-", text: "Zoom out", isListed: false, act: () => camera.zoom(ZOOM) },
+  ];
+}
+
+const ARROWS = [
+  ["ArrowLeft", -1, 0],
+  ["ArrowRight", 1, 0],
+  ["ArrowUp", 0, 1],
+  ["ArrowDown", 0, -1],
+] as const;
 
 export class Shortcuts {
   private readonly dialog: HTMLDialogElement;
@@ -29,7 +55,7 @@ export class Shortcuts {
         h(
           "dl",
           { class: "keys" },
-          ...[...shortcuts, ...MOUSE].map((s) =>
+          ...[...shortcuts.filter(({ isListed }) => isListed !== false), ...MOUSE].map((s) =>
             h("div", {}, h("dt", {}, s.text), h("dd", {}, h("span", { class: "key" }, s.shown ?? s.key))),
           ),
         ),
@@ -45,15 +71,18 @@ export class Shortcuts {
   }
 
   private press(event: KeyboardEvent): void {
-    if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
+    const arrow = event.key.startsWith("Arrow");
+    if (event.metaKey || event.altKey || event.defaultPrevented || (event.ctrlKey && !arrow)) return;
     // An open dialog handles its own keys.
     if (document.querySelector("dialog[open]") && !(this.dialog.open && event.key === "?")) return;
     const target = event.target as HTMLElement;
     const typing = target.matches("input:not([type=checkbox]):not([type=range]), select, textarea");
     if (typing && event.key !== "Escape") return;
-    if (event.key.startsWith("Arrow") && target.matches("input[type=range]")) return;
+    // Sliders, tabs and menus have keys of their own.
+    if (arrow && target.matches(OWN_ARROWS)) return;
     if (event.key === " " && target.matches("button, input, summary")) return;
-    const found = this.shortcuts.find((shortcut) => shortcut.key === event.key);
+    const key = arrow ? `${event.ctrlKey ? "Control+" : event.shiftKey ? "Shift+" : ""}${event.key}` : event.key;
+    const found = this.shortcuts.find((shortcut) => shortcut.key === key);
     if (!found) return;
     if (typing) target.blur();
     found.act();
@@ -61,10 +90,14 @@ export class Shortcuts {
   }
 }
 
+/** Elements that use the arrow keys themselves. */
+const OWN_ARROWS = "input[type=range], input[type=radio], [role=slider], [role=tab], [role=menuitem], [role=treeitem]";
+
 const MOUSE: { key: string; shown?: string; text: string }[] = [
   { key: "drag", text: "Rotate the camera" },
-  { key: "right drag", text: "Move the camera" },
-  { key: "wheel", text: "Zoom" },
-  { key: "click a frame", text: "Select and inspect the frame" },
+  { key: "middle drag, Shift drag", text: "Move the camera" },
+  { key: "wheel, right drag", text: "Zoom" },
+  { key: "double-click", text: "Look at the point" },
+  { key: "click", text: "Select and inspect a frame, a point, a marker or a link" },
   { key: "Shift drag on the timeline", text: "Select a time span to loop" },
 ];

@@ -6,7 +6,7 @@ import * as format from "../util/format";
 import type { Model } from "../model/model";
 import { PUBLISHING_TOOLS, type PublishingTool, type ToolSettings } from "../model/tools";
 import type { Vector } from "../protocol/messages";
-import type { Tool } from "../scene/tools";
+import { publishes, type Tool } from "../scene/tools";
 import { toast } from "../util/toast";
 import type { View } from "../scene/view";
 
@@ -87,16 +87,15 @@ export class Toolbar {
 
   private setTopic(): void {
     const { active } = this.view.tools;
-    if (!active || active === "measure") return;
+    if (!publishes(active)) return;
     this.settings.setTopic(active, this.topic.value.trim());
     this.topic.value = this.settings.topic(active);
     this.updateButtons();
   }
 
   private show(tool: Tool | null): void {
-    const publishes = tool !== null && tool !== "measure";
-    this.hint.hidden = !publishes;
-    if (publishes) {
+    this.hint.hidden = !publishes(tool);
+    if (publishes(tool)) {
       const { title } = PUBLISHING_TOOLS[tool];
       setText(this.instruction, `${title}: ${INSTRUCTIONS[tool]}. Publishes in ${shorten(this.model.fixed, 40)}`);
       this.topic.value = this.settings.topic(tool);

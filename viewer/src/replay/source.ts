@@ -121,7 +121,12 @@ export class ReplaySource implements MessageSource {
         tools: [],
         unknown: [],
       },
-      topics: this.displays.map(({ block: { topic, type, display } }) => ({ topic, type, display })),
+      topics: this.displays.map(({ block: { topic, type, display } }) => ({
+        topic,
+        type,
+        display,
+        automatic: true,
+      })),
       can_publish: false,
     };
     listener("text", hello);

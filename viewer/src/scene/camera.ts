@@ -7,6 +7,11 @@ import type { JsonObject, Vector } from "../protocol/messages";
 
 export type CameraMode = "orbit" | "top";
 
+/** Which mouse button does what: as in RViz, or with the right button to move, as in many other programs. */
+export type MouseButtons = "rviz" | "right-moves";
+
+const MAX_PITCH = 1.55;
+
 const FIELD_OF_VIEW = 45;
 const NEAR_PLANE_M = 0.02;
 
@@ -37,6 +42,7 @@ export class Camera {
       controls.addEventListener("change", onChange);
     }
     const { top } = this.controls;
+    this.setMouse("rviz");
     top.enableRotate = false;
     top.mouseButtons.LEFT = THREE.MOUSE.PAN;
     top.touches.ONE = THREE.TOUCH.PAN;
@@ -102,6 +108,51 @@ export class Camera {
     this.current.position.add(delta);
     this.target.add(delta);
     this.controls[this.mode].update();
+  }
+
+  /** The left button rotates, with Shift it moves. The others move and zoom. */
+  setMouse(buttons: MouseButtons): void {
+    const [MIDDLE, RIGHT] =
+      buttons === "rviz" ? [THREE.MOUSE.PAN, THREE.MOUSE.DOLLY] : [THREE.MOUSE.DOLLY, THREE.MOUSE.PAN];
+    for (const controls of Object.values(this.controls)) Object.assign(controls.mouseButtons, { MIDDLE, RIGHT });
+  }
+
+  /** Looks at a point from where the camera is, so that it rotates around this point, as RViz's Focus Camera. */
+  lookAt(point: THREE.Vector3): void {
+    if (this.mode === "top") this.flat.position.set(point.x, point.y, this.flat.position.z);
+    this.target.copy(point);
+    this.controls[this.mode].update();
+  }
+
+  /** Rotates the camera around its target, by radians; the top-down view does not rotate. */
+  turn(yaw: number, pitch: number): void {
+    if (this.mode === "top") return;
+    const target = this.controls.orbit.target;
+    const away = this.perspective.position.clone().sub(target);
+    const distance = away.length();
+    const angle = Math.atan2(away.y, away.x) + yaw;
+    const height = Math.max(-MAX_PITCH, Math.min(MAX_PITCH, Math.asin(away.z / distance) + pitch));
+    away.set(Math.cos(angle) * Math.cos(height), Math.sin(angle) * Math.cos(height), Math.sin(height));
+    this.perspective.position.copy(target).addScaledVector(away, distance);
+    this.controls.orbit.update();
+  }
+
+  /** Moves the camera and its target by shares of the visible height. */
+  move(right: number, up: number): void {
+    const camera = this.current;
+    camera.updateMatrixWorld();
+    const height = this.visibleHeight();
+    const step = new THREE.Vector3()
+      .addScaledVector(new THREE.Vector3().setFromMatrixColumn(camera.matrixWorld, 0), right * height)
+      .addScaledVector(new THREE.Vector3().setFromMatrixColumn(camera.matrixWorld, 1), up * height);
+    camera.position.add(step);
+    this.target.add(step);
+    this.controls[this.mode].update();
+  }
+
+  /** Changes the visible height by a factor; factors below 1 zoom in. */
+  zoom(factor: number): void {
+    this.moveTo(this.target.clone(), this.visibleHeight() * factor);
   }
 
   fit(box: THREE.Box3): void {

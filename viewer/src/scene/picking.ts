@@ -5,6 +5,8 @@ import * as THREE from "three";
 
 /** A point of a cloud is hit if the pointer is within this many pixels of it. */
 const CLOUD_POINT_PX = 5;
+/** A line is hit if the pointer is within this many pixels of it. */
+const LINE_PX = 4;
 /** Points have the same depth if it differs by at most this many times the tolerance of a hit. */
 const SAME_DEPTH = 4;
 /** A ray that is nearly parallel to the ground would hit it at a distance that the user cannot mean. */
@@ -48,13 +50,19 @@ export class Picker {
     return this.hit(roots, false)?.point ?? null;
   }
 
-  /** The nearest visible mesh, cloud or sprite that the ray hits, with the point on it; null if it hits none. */
-  hit(roots: readonly THREE.Object3D[], sprites = true): Hit | null {
+  /**
+   * The nearest visible mesh, cloud, sprite or line that the ray hits, with the point on it; null if it hits none.
+   */
+  hit(roots: readonly THREE.Object3D[], sprites = true, lines = false): Hit | null {
     const hits: THREE.Intersection[] = [];
     for (const root of roots)
       forEachVisible(root, (object) => {
         const isCloud = object instanceof THREE.Points;
-        if (!isCloud && !(object instanceof THREE.Mesh) && !(sprites && object instanceof THREE.Sprite)) return;
+        const isLine = object instanceof THREE.Line;
+        if (isLine && !lines) return;
+        if (!isCloud && !isLine && !(object instanceof THREE.Mesh) && !(sprites && object instanceof THREE.Sprite))
+          return;
+        if (isLine) this.raycaster.params.Line.threshold = LINE_PX * this.pixels(this.distance(object));
         if (isCloud) this.raycaster.params.Points.threshold = CLOUD_POINT_PX * this.pixels(this.distance(object));
         object.raycast(this.raycaster, hits);
       });
@@ -78,7 +86,7 @@ export class Picker {
     return near.reduce((best, hit) => (off(hit) < off(best) ? hit : best), nearest);
   }
 
-  private distance(cloud: THREE.Points): number {
+  private distance(cloud: THREE.Points | THREE.Line): number {
     cloud.geometry.boundingSphere ?? cloud.geometry.computeBoundingSphere();
     const { center } = cloud.geometry.boundingSphere as THREE.Sphere;
     const distance = center.clone().applyMatrix4(cloud.matrixWorld).distanceTo(this.raycaster.ray.origin);

@@ -1,15 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
- * The tools of the pointer: measuring, and points and poses that are published.
+ * The tools of the pointer: measuring, selecting, focusing, and points and poses that are published.
  *
  * A pose is set as in RViz: press at the position, drag in the direction, release. Other buttons move the camera.
  */
 
 import * as THREE from "three";
-import type { PublishingTool } from "../model/tools";
+import { PUBLISHING_TOOLS, type PublishingTool } from "../model/tools";
 import type { Vector } from "../protocol/messages";
+import { h } from "../util/dom";
 
-export type Tool = PublishingTool | "measure";
+export type Tool = PublishingTool | "measure" | "select" | "focus";
+
+/** A rectangle of the canvas in pixels; a click gives one without an area. */
+export interface PixelBox {
+  left: number;
+  top: number;
+  right: number;
+  bottom: number;
+}
+
+export function publishes(tool: Tool | null): tool is PublishingTool {
+  return tool !== null && Object.hasOwn(PUBLISHING_TOOLS, tool);
+}
 
 export interface ToolScene {
   /** The point of the ground plane z = 0 of the fixed frame at a pixel, in the scene; null if there is none. */
@@ -31,6 +44,10 @@ export class PointerTools {
   private yaw = 0;
   private readonly arrow = new THREE.ArrowHelper();
   private readonly listeners: ((tool: Tool | null) => void)[] = [];
+  private readonly boxListeners: ((event: PointerEvent, box: PixelBox | null) => void)[] = [];
+  /** Where the drag of a rectangle began, and the rectangle. */
+  private corner: { x: number; y: number } | null = null;
+  private readonly box = h("div", { class: "selection-box", hidden: true, aria: { hidden: "true" } });
   private readonly poseListeners: ((tool: PublishingTool, position: Vector, yaw: number) => void)[] = [];
 
   constructor(
@@ -44,6 +61,7 @@ export class PointerTools {
       part.frustumCulled = false;
     }
     this.object.add(this.arrow);
+    canvas.parentElement?.append(this.box);
     // In the capture phase, so that a press does not also rotate the camera or select a frame.
     canvas.addEventListener("pointerdown", (event) => this.press(event), { capture: true });
     canvas.addEventListener("pointermove", (event) => this.move(event));
@@ -59,6 +77,11 @@ export class PointerTools {
   /** Calls the listener with each pose that the user has set, in the fixed frame. */
   onPose(listener: (tool: PublishingTool, position: Vector, yaw: number) => void): void {
     this.poseListeners.push(listener);
+  }
+
+  /** Calls the listener with each rectangle that the user has drawn with the tool for selecting; null for a click. */
+  onBox(listener: (event: PointerEvent, box: PixelBox | null) => void): void {
+    this.boxListeners.push(listener);
   }
 
   choose(tool: Tool | null): void {
@@ -79,6 +102,12 @@ export class PointerTools {
   }
 
   private press(event: PointerEvent): void {
+    if (this.active === "select" && event.button === 0 && !event.shiftKey) {
+      event.stopImmediatePropagation();
+      this.canvas.setPointerCapture(event.pointerId);
+      this.corner = { x: event.clientX, y: event.clientY };
+      return;
+    }
     if (!this.setsPose || event.button !== 0) return;
     event.stopImmediatePropagation();
     const point = this.scene.groundAt(event);
@@ -91,12 +120,42 @@ export class PointerTools {
   }
 
   private move(event: PointerEvent): void {
+    if (this.corner) this.drawBox(event);
     if (!this.start || Math.hypot(event.clientX - this.start.x, event.clientY - this.start.y) < DRAG_PX) return;
     const end = this.scene.groundAt(event);
     if (end && end.distanceTo(this.start.point) > MIN_LENGTH_M) this.point(end);
   }
 
+  /** Shows the rectangle from the corner to the pointer, and returns it; null before the pointer has moved. */
+  private drawBox(event: PointerEvent): PixelBox | null {
+    const { x, y } = this.corner as { x: number; y: number };
+    if (this.box.hidden && Math.hypot(event.clientX - x, event.clientY - y) < DRAG_PX) return null;
+    const bounds = this.canvas.getBoundingClientRect();
+    const [xs, ys] = [[x, event.clientX].sort((a, b) => a - b), [y, event.clientY].sort((a, b) => a - b)];
+    const box = {
+      left: (xs[0] as number) - bounds.left,
+      right: (xs[1] as number) - bounds.left,
+      top: (ys[0] as number) - bounds.top,
+      bottom: (ys[1] as number) - bounds.top,
+    };
+    this.box.hidden = false;
+    Object.assign(this.box.style, {
+      left: `${box.left}px`,
+      top: `${box.top}px`,
+      width: `${box.right - box.left}px`,
+      height: `${box.bottom - box.top}px`,
+    });
+    return box;
+  }
+
   private release(event: PointerEvent): void {
+    if (this.corner && event.button === 0) {
+      event.stopImmediatePropagation();
+      const box = this.drawBox(event);
+      this.cancel();
+      for (const listener of this.boxListeners) listener(event, box);
+      return;
+    }
     if (!this.start || event.button !== 0) return;
     event.stopImmediatePropagation();
     this.move(event);
@@ -121,6 +180,8 @@ export class PointerTools {
   }
 
   private cancel(): void {
+    this.corner = null;
+    this.box.hidden = true;
     this.start = null;
     this.arrow.visible = false;
     this.scene.refresh();

@@ -8,9 +8,10 @@ import { LabelLayer, type Label } from "./labels";
 import { Measure, type MeasuredEnd } from "./measure";
 import type { Model } from "../model/model";
 import { FramePoses } from "./frame_poses";
+import { Highlight } from "./highlight";
 import { Picker, type Hit } from "./picking";
 import { Panes } from "./panes";
-import { PointerTools } from "./tools";
+import { PointerTools, type PixelBox } from "./tools";
 import type { FrameUpdate, Vector } from "../protocol/messages";
 import { SceneRenderer } from "./renderer";
 import type { Theme } from "../util/theme";
@@ -34,6 +35,7 @@ export class View {
   readonly renderer: SceneRenderer;
   readonly framePoses = new FramePoses();
   readonly measure: Measure;
+  readonly highlight: Highlight;
   readonly tools: PointerTools;
   readonly adjuster: Adjuster;
   readonly panes: Panes;
@@ -56,6 +58,7 @@ export class View {
   private readonly picker = new Picker();
   private readonly surfaces: (() => THREE.Object3D[])[] = [];
   private readonly clickListeners: ((event: PointerEvent) => boolean)[] = [];
+  private readonly missListeners: ((event: PointerEvent) => boolean)[] = [];
   private readonly hoverListeners: ((event: PointerEvent) => boolean)[] = [];
   private readonly pointListeners: ((point: Vector) => void)[] = [];
   private readonly posesListeners: ((framePoses: FramePoses, update: FrameUpdate) => void)[] = [];
@@ -73,6 +76,7 @@ export class View {
     this.frames = new FramesView(palette);
     this.labels = new LabelLayer(labels);
     this.measure = new Measure(palette);
+    this.highlight = new Highlight(palette);
     this.renderer = new SceneRenderer(
       canvas,
       palette,
@@ -89,7 +93,7 @@ export class View {
       () => this.refresh(),
       () => this.content(),
     );
-    this.renderer.scene.add(this.frames.object, this.measure.object, this.tools.object);
+    this.renderer.scene.add(this.frames.object, this.measure.object, this.highlight.object, this.tools.object);
     this.renderer.compile(this.frames.alwaysDrawn);
     theme.onChange(() => this.recolor());
     model.on("frames", (update) => {
@@ -169,18 +173,57 @@ export class View {
     this.clickListeners.push(listener);
   }
 
+  /** Calls the listener with each click that hits neither a frame nor what other listeners use. */
+  onMiss(listener: (event: PointerEvent) => boolean): void {
+    this.missListeners.push(listener);
+  }
+
   /** Shows a hand above what the listener returns true for. */
   onHover(listener: (event: PointerEvent) => boolean): void {
     this.hoverListeners.push(listener);
   }
 
   /** What is visible under the pointer; null if it is none of these objects. */
-  hit(event: PointerEvent, roots: readonly THREE.Object3D[]): Hit | null {
+  hit(event: PointerEvent, roots: readonly THREE.Object3D[], lines = false): Hit | null {
     this.aim(event);
-    return this.picker.hit(roots);
+    return this.picker.hit(roots, true, lines);
   }
 
-  groundAt(event: PointerEvent): THREE.Vector3 | null {
+  /** The frame whose origin is near the pointer. */
+  frameAt(event: MouseEvent): string | null {
+    const bounds = this.renderer.canvas.getBoundingClientRect();
+    return this.pick(event.clientX - bounds.left, event.clientY - bounds.top);
+  }
+
+  /** Returns whether points of the scene are inside a rectangle of the canvas. */
+  insideBox({ left, right, top, bottom }: PixelBox): (point: THREE.Vector3) => boolean {
+    const { camera, width, height } = this.renderer;
+    camera.current.updateMatrixWorld();
+    const matrix = camera.current.projectionMatrix.clone().multiply(camera.current.matrixWorldInverse);
+    const at = new THREE.Vector3();
+    return (point) => {
+      at.copy(point).applyMatrix4(matrix);
+      const [x, y] = [((at.x + 1) / 2) * width, ((1 - at.y) / 2) * height];
+      return at.z > -1 && at.z < 1 && x >= left && x <= right && y >= top && y <= bottom;
+    };
+  }
+
+  /** Looks at the surface, or the ground, under the pointer. */
+  focus(event: MouseEvent): void {
+    this.aim(event);
+    const point = this.picker.surface(this.surfaces.flatMap((found) => found())) ?? this.groundAt(event);
+    if (!point) return;
+    this.cameraChosen = true;
+    this.renderer.camera.lookAt(point);
+  }
+
+  /** Looks at a point of the fixed frame. */
+  lookAt(point: Vector): void {
+    this.cameraChosen = true;
+    this.renderer.camera.lookAt(new THREE.Vector3(...point).sub(new THREE.Vector3(...this.framePoses.origin)));
+  }
+
+  groundAt(event: MouseEvent): THREE.Vector3 | null {
     this.aim(event);
     return this.picker.ground(-this.framePoses.origin[2]);
   }
@@ -226,6 +269,7 @@ export class View {
       if (position) this.renderer.camera.follow(position);
     }
     this.adjuster.place(framePoses);
+    this.highlight.place(framePoses.origin);
     for (const listener of this.posesListeners) listener(framePoses, update);
     if (!this.fitted && (framePoses.drawn.includes(1) || this.bounds.some((bounds) => !bounds().isEmpty()))) {
       this.fitted = true;
@@ -297,6 +341,7 @@ export class View {
     this.renderer.setPalette(palette);
     this.frames.setPalette(palette);
     this.measure.setPalette(palette);
+    this.highlight.setPalette(palette);
     this.refresh();
   }
 
@@ -316,11 +361,18 @@ export class View {
     });
     canvas.addEventListener("pointerup", (event) => {
       if (!down || Math.hypot(event.clientX - down.x, event.clientY - down.y) > CLICK_PX) return;
-      const bounds = canvas.getBoundingClientRect();
-      const frame = this.pick(event.clientX - bounds.left, event.clientY - bounds.top);
+      const frame = this.frameAt(event);
       if (this.tools.active) this.use(event, frame);
-      else if (!this.adjuster.hovered && !this.clickListeners.some((used) => used(event))) this.model.select(frame);
+      else if (!this.adjuster.hovered && !this.clickListeners.some((used) => used(event))) this.click(event, frame);
     });
+    canvas.addEventListener("dblclick", (event) => {
+      if (!this.tools.active && event.button === 0) this.focus(event);
+    });
+  }
+
+  private click(event: PointerEvent, frame: string | null): void {
+    if (frame === null && this.missListeners.some((used) => used(event))) return;
+    this.model.select(frame);
   }
 
   /** Uses the active tool at a frame, on a surface or on the ground plane. */
@@ -334,11 +386,14 @@ export class View {
     } else if (this.tools.active === "point" && point) {
       this.tools.choose(null);
       for (const listener of this.pointListeners) listener(point);
+    } else if (this.tools.active === "focus") {
+      this.tools.choose(null);
+      this.focus(event);
     }
     this.refresh();
   }
 
-  private aim(event: PointerEvent): void {
+  private aim(event: MouseEvent): void {
     const { camera, canvas, width, height } = this.renderer;
     const bounds = canvas.getBoundingClientRect();
     this.picker.aim(camera.current, event.clientX - bounds.left, event.clientY - bounds.top, width, height);

@@ -10,10 +10,20 @@ from coframe.doctor.codes import codes, page
 from coframe.errors import ViewerError, WireError
 from coframe.viewer.clients._panel_requests import PANEL_HANDLERS
 from coframe.viewer.displays import Options
+from coframe.viewer.displays.part_values import part_values
 from coframe.viewer.protocol import client_messages
 from coframe.viewer.protocol.requests import BadRequestError
 from coframe.viewer.protocol.schema import shorten
-from coframe.viewer.protocol.server_messages import CodePage, PublishResult, ReplayPrepared, Rviz, RvizSaved, Timeline
+from coframe.viewer.protocol.server_messages import (
+    CodePage,
+    PartDetails,
+    PickedField,
+    PublishResult,
+    ReplayPrepared,
+    Rviz,
+    RvizSaved,
+    Timeline,
+)
 from coframe.viewer.replay.displays import ReplayDisplay
 from coframe.viewer.replay.page import MAX_DISPLAYS, ReplaySettings
 from coframe.viewer.rviz.config import RvizConfig
@@ -71,6 +81,28 @@ async def _subscribe(client: ClientState, request: client_messages.Subscribe) ->
 
 async def _unsubscribe(client: ClientState, request: client_messages.Unsubscribe) -> None:
     client.unsubscribe(request.id)
+
+
+async def _pick(client: ClientState, request: client_messages.PickPart) -> PartDetails | None:
+    subscription = client.subscriptions.get(request.id)
+    display = None if subscription is None else subscription.display
+    found = None if display is None else display.picked(request.sequence)
+    if subscription is None or display is None or found is None:
+        return None  # A newer message has replaced it.
+    drawing, message = found
+    topic, ros_type = subscription.topic, display.messages.type
+    values = await _in_background(client, part_values, message, ros_type, topic, drawing.offset, request.local)
+    return PartDetails(
+        type="picked",
+        id=request.id,
+        sequence=request.sequence,
+        topic=topic,
+        message_type=ros_type,
+        frame=display.messages.frame(drawing.frame),
+        stamp=drawing.stamp - client.origin if drawing.stamp else None,
+        fields=[PickedField(name=name, text=text) for name, text in values.fields],
+        curves=values.curves,
+    )
 
 
 async def _step(client: ClientState, request: client_messages.Step) -> None:
@@ -236,6 +268,7 @@ _HANDLERS: dict[type, Callable[[ClientState, Any], Awaitable[ServerMessage | Non
     client_messages.ClickNode: _click,
     client_messages.RequestCodePage: _explain,
     client_messages.LoadRviz: _load_rviz,
+    client_messages.PickPart: _pick,
     client_messages.PrepareReplay: _prepare_replay,
     client_messages.PublishPoint: _publish_point,
     client_messages.PublishPose: _publish_pose,

@@ -149,6 +149,8 @@ class DisplayRow:
         shapes: The descriptions that its drawings contain, as TypedDicts; the page's types are generated from them.
         selectable: Whether it is offered for topics of its message types. Other displays come only from .rviz files.
         automatic: Whether the page shows such topics automatically, or False if that needs much bandwidth.
+        rank: Its place among the displays that the page shows automatically; those with the lowest rank come first.
+        max_automatic: How many topics of its types the page shows automatically at most.
         large_in_replay: Whether a replay records it last, in the remaining space.
         has_surfaces: Whether the page's tools find points on it.
         projected: Whether its lines and meshes can be drawn above images.
@@ -160,6 +162,8 @@ class DisplayRow:
     shapes: tuple[type, ...] = ()
     selectable: bool = True
     automatic: bool = True
+    rank: int = 5
+    max_automatic: int = 12
     large_in_replay: bool = False
     has_surfaces: bool = True
     projected: bool = False

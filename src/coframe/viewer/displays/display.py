@@ -182,6 +182,14 @@ class Display:
         drawings = [entry.drawing for entry in self._entries()]
         return [None if drawing.locked or drawing.stamp == 0 else drawing.stamp for drawing in drawings]
 
+    def picked(self, sequence: int) -> tuple[Drawing, StampedMessage | None] | None:
+        """Return a drawing with the newest message of its layer, or None if the drawing no longer exists."""
+        for layer in self._layers:
+            for entry in layer.entries:
+                if entry.sequence == sequence:
+                    return entry.drawing, self.messages.at(layer.time)
+        return None
+
     def close(self) -> None:
         """Stop drawing."""
         if self._work is not None:

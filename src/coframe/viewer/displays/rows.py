@@ -43,12 +43,33 @@ DISPLAY_OF_TYPE: dict[str, DisplayRow] = {
 
 
 def displayable(topics: Iterable[tuple[str, str]]) -> list[DisplayTopic]:
-    """Return the topics of a source that can be displayed, with their types."""
-    return [
-        DisplayTopic(topic=topic, type=ros_type, display=DISPLAY_OF_TYPE[ros_type].name)
-        for topic, ros_type in topics
-        if ros_type in DISPLAY_OF_TYPE
+    """Return the topics of a source with their types and displays, the most useful topics first.
+
+    The page shows the first topic of each type automatically, then the second one of each type, and so on, up to the
+    maximum of each display and of the page. Topics without a display come last.
+    """
+    of_row: dict[str, list[tuple[str, str]]] = {}
+    for topic, ros_type in topics:
+        row = DISPLAY_OF_TYPE.get(ros_type)
+        of_row.setdefault("" if row is None else row.name, []).append((topic, ros_type))
+    plain = of_row.pop("", [])
+    places = [
+        (place, DISPLAYS[name], topic, ros_type)
+        for name, found in of_row.items()
+        for place, (topic, ros_type) in enumerate(sorted(found, key=_plainness))
     ]
+    places.sort(key=lambda one: (one[0], one[1].rank, one[1].name, one[2]))
+    chosen = [topic for place, row, topic, _ in places if row.automatic and place < row.max_automatic]
+    shown = set(chosen[:MAX_AUTOMATIC_DISPLAYS])
+    return [
+        DisplayTopic(topic=topic, type=ros_type, display=row.name, automatic=topic in shown)
+        for _, row, topic, ros_type in places
+    ] + [DisplayTopic(topic=topic, type=ros_type, display="", automatic=False) for topic, ros_type in sorted(plain)]
+
+
+def _plainness(topic: tuple[str, str]) -> tuple[int, int, str]:
+    """Return a sort key: /scan comes before /front/scan and /scan_filtered."""
+    return topic[0].count("/"), len(topic[0]), topic[0]
 
 
 def make_renderer(messages: TopicMessages, options: Options, mesh_url: MeshUrl) -> Renderer:

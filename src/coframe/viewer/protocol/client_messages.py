@@ -100,6 +100,22 @@ class Unsubscribe:
 
 
 @dataclass(frozen=True)
+class PickPart:
+    """Requests what a message contains at a part of its drawing that the user has selected.
+
+    Attributes:
+        id: The display.
+        sequence: The drawing.
+        local: The position of the part in the coordinates of the drawing.
+    """
+
+    type: ClassVar[str] = "pick"
+    id: Id
+    sequence: Id
+    local: Position
+
+
+@dataclass(frozen=True)
 class RequestRelation:
     """Requests the pose of ``source`` relative to ``target`` at the displayed time."""
 
@@ -333,6 +349,7 @@ ClientMessage: TypeAlias = (
     | Step
     | Subscribe
     | Unsubscribe
+    | PickPart
     | RequestRelation
     | RequestTimeline
     | SetJoints

@@ -27,11 +27,12 @@ from coframe.viewer.protocol.common import (
 
 
 class DisplayTopic(TypedDict):
-    """A topic that can be displayed."""
+    """A topic with the class of its display, or "" if it has none, and whether it is displayed automatically."""
 
     topic: str
     type: str
     display: str
+    automatic: bool
 
 
 class RvizGlobalOptions(TypedDict):
@@ -133,7 +134,7 @@ class Stats(TypedDict):
 
 
 class DisplayTopics(TypedDict):
-    """The topics that can be displayed; sent when they change."""
+    """The topics, the most useful ones first; sent when they change."""
 
     type: Literal["topics"]
     topics: list[DisplayTopic]
@@ -220,6 +221,30 @@ class DisplayStatus(_DisplayStatus, total=False):
     """The status of a subscribed display; ``note`` exists only in replays and describes what was omitted."""
 
     note: str
+
+
+class PickedField(TypedDict):
+    """A value of the selected part of a message, such as the intensity of a point."""
+
+    name: str
+    text: str
+
+
+class PartDetails(TypedDict):
+    """The answer to ``pick``: the message of a drawing, and its values at the selected part.
+
+    ``stamp`` is None for drawings without a stamp. ``curves`` are expressions of the part that can be plotted.
+    """
+
+    type: Literal["picked"]
+    id: int
+    sequence: int
+    topic: str
+    message_type: str
+    frame: str
+    stamp: float | None
+    fields: list[PickedField]
+    curves: list[str]
 
 
 Rviz = TypedDict(
@@ -534,6 +559,7 @@ ServerMessage: TypeAlias = (
     | DisplayTopics
     | RobotModel
     | DisplayStatus
+    | PartDetails
     | Rviz
     | Relation
     | Timeline

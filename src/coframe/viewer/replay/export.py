@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from coframe.time import SECOND
 from coframe.viewer._page_files import STATIC
 from coframe.viewer.displays import Options
-from coframe.viewer.displays.rows import DISPLAYS, MAX_AUTOMATIC_DISPLAYS, displayable
+from coframe.viewer.displays.rows import DISPLAYS, displayable
 from coframe.viewer.replay.displays import ImmediateExecutor, ReplayDisplay
 from coframe.viewer.replay.page import (
     FRAME_TIMEOUT,
@@ -123,7 +123,7 @@ def _displays(rviz: RvizConfig | None, topics: Sequence[DisplayTopic]) -> list[R
     """Return the displays of a configuration, or those that the page would choose."""
     if rviz is not None:
         return rviz.description()["displays"]
-    chosen = [topic for topic in topics if DISPLAYS[topic["display"]].automatic][:MAX_AUTOMATIC_DISPLAYS]
+    chosen = [topic for topic in topics if topic["automatic"]]
     return [
         *(_display(name, name, None) for name in ("Grid", "TF")),
         *(_display(topic["display"], topic["topic"], topic["topic"]) for topic in chosen),

@@ -35,6 +35,8 @@ def draw_grid(grid: Any, _options: Options) -> Drawing:
 
 MAP = DisplayRow(
     name="Map",
+    rank=2,
+    max_automatic=3,
     messages={"nav_msgs/msg/OccupancyGrid": draw_each_message(draw_grid)},
     options=(
         NumberOption("Alpha", 0.7, 0.0, 1.0, 0.05),

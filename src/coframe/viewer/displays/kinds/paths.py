@@ -32,6 +32,7 @@ def draw_path(message: Any, options: Options) -> Drawing:
 
 PATH = DisplayRow(
     name="Path",
+    rank=3,
     messages={"nav_msgs/msg/Path": draw_each_message(draw_path)},
     options=(
         ColorOption("Color", "#19d245"),

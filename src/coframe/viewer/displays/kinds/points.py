@@ -132,11 +132,14 @@ def _options(size: float, transformer: str) -> tuple[Option, ...]:
 
 LASER_SCAN = DisplayRow(
     name="LaserScan",
+    rank=1,
     messages={"sensor_msgs/msg/LaserScan": draw_each_message(draw_scan)},
     options=_options(0.03, "Intensity"),
 )
 POINT_CLOUD2 = DisplayRow(
     name="PointCloud2",
+    rank=4,
+    max_automatic=2,
     messages={"sensor_msgs/msg/PointCloud2": draw_each_message(draw_cloud)},
     options=_options(0.01, "AxisColor"),
     large_in_replay=True,

@@ -156,6 +156,7 @@ POSE_ARRAY = DisplayRow(
 )
 POSE_WITH_COVARIANCE = DisplayRow(
     name="PoseWithCovariance",
+    rank=3,
     messages={"geometry_msgs/msg/PoseWithCovarianceStamped": draw_each_message(draw_pose)},
     options=(*_SHAPE, *_COVARIANCE),
     shapes=(PosesShape,),
@@ -163,6 +164,7 @@ POSE_WITH_COVARIANCE = DisplayRow(
 )
 ODOMETRY = DisplayRow(
     name="Odometry",
+    rank=3,
     messages={"nav_msgs/msg/Odometry": OdometryRenderer},
     options=(*_SHAPE, NumberOption("Keep", 100.0, 1.0, 1000.0, 10.0, sets="keep"), *_COVARIANCE),
     shapes=(OdometryShape,),

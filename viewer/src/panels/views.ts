@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The numbers of the view as fields, and saved views, which can be shared as links. */
+
+import type { Model } from "../model/model";
+import type { JsonObject } from "../protocol/messages";
+import type { View as CameraView } from "../scene/camera";
+import type { View } from "../scene/view";
+import { copyText, h, iconButton, shorten } from "../util/dom";
+import { link, linked } from "../util/link";
+import { remember, remembered } from "../util/storage";
+import { toast } from "../util/toast";
+
+const UPDATE_MS = 250;
+const MAX_VIEWS = 50;
+const MAX_NAME = 80;
+const DEGREES = 180 / Math.PI;
+const ANGLES = new Set(["Pitch", "Yaw", "Angle"]);
+const START: CameraView = {
+  class: "rviz_default_plugins/Orbit",
+  options: { Distance: 5, "Focal Point": { X: 0, Y: 0, Z: 0 }, Pitch: 0.6, Yaw: 0.8 },
+};
+
+interface SavedView {
+  name: string;
+  view: CameraView;
+}
+
+export class ViewsPanel {
+  private readonly element: HTMLElement;
+  private readonly fields = h("div", { class: "view-fields" });
+  private readonly list = h("ul", { class: "list", id: "saved-views" });
+  private readonly name = h("input", { type: "text", placeholder: "Name", maxlength: String(MAX_NAME) });
+  private readonly inputs = new Map<string, HTMLInputElement>();
+  private saved: SavedView[];
+  private updated = 0;
+
+  constructor(
+    root: HTMLElement,
+    model: Model,
+    private readonly view: View,
+  ) {
+    const saved = remembered<SavedView[]>("views", []);
+    this.saved = Array.isArray(saved) ? saved.filter((one) => isView(one.view)) : [];
+    this.name.setAttribute("aria-label", "Name of the view");
+    const button = (text: string, act: () => void): HTMLElement =>
+      h("button", { type: "button", class: "small", on: { click: act } }, text);
+    this.element = h(
+      "section",
+      { class: "view-sheet", id: "views", hidden: true, aria: { label: "View" } },
+      h(
+        "div",
+        { class: "inspector-head" },
+        h("h2", {}, "View"),
+        iconButton("close", "Close (w)", () => this.toggle()),
+      ),
+      this.fields,
+      h(
+        "div",
+        { class: "buttons" },
+        button("Zero", () => this.apply(START)),
+        button("Copy link", () => void this.share()),
+      ),
+      h("h3", {}, "Saved views"),
+      h(
+        "form",
+        {
+          class: "toolbar",
+          on: {
+            submit: (event) => {
+              event.preventDefault();
+              this.save();
+            },
+          },
+        },
+        this.name,
+        h("button", { type: "submit", class: "small" }, "Save"),
+      ),
+      this.list,
+    );
+    root.append(this.element);
+    view.onDrawn(() => this.update());
+    model.on("hello", () => this.openLinked());
+    this.showList();
+  }
+
+  toggle(): void {
+    this.element.hidden = !this.element.hidden;
+    this.updated = 0;
+    this.update();
+  }
+
+  /** Shows the view of the link with which the page was opened. */
+  private openLinked(): void {
+    try {
+      const view = JSON.parse(linked("view")[0] ?? "null") as unknown;
+      if (isView(view)) this.apply(view);
+    } catch {
+      toast("The view in the address of the page is not valid.");
+    }
+    link("view", []);
+  }
+
+  private get current(): CameraView {
+    return this.view.renderer.camera.describe(this.view.followed);
+  }
+
+  private apply(view: CameraView): void {
+    const frame = view.options["Target Frame"];
+    this.view.setFollowed(null);
+    if (!this.view.renderer.camera.apply(view)) return;
+    this.view.keepCamera();
+    if (typeof frame === "string" && !frame.startsWith("<")) this.view.setFollowed(frame);
+    this.view.refresh();
+  }
+
+  private update(): void {
+    const now = performance.now();
+    if (this.element.hidden || now - this.updated < UPDATE_MS) return;
+    this.updated = now;
+    const numbers = numbersOf(this.current.options);
+    if ([...numbers.keys()].join() !== [...this.inputs.keys()].join()) this.makeFields([...numbers.keys()]);
+    for (const [path, value] of numbers) {
+      const input = this.inputs.get(path);
+      const shown = String(Number((ANGLES.has(path) ? value * DEGREES : value).toFixed(3)));
+      if (input && input !== document.activeElement && input.value !== shown) input.value = shown;
+    }
+  }
+
+  private makeFields(paths: string[]): void {
+    this.inputs.clear();
+    const rows = paths.map((path) => {
+      const label = ANGLES.has(path) ? `${path} (°)` : path.replace("Focal Point/", "");
+      const input = h("input", { type: "number", step: "any", aria: { label } });
+      input.addEventListener("change", () => this.set(path, input.valueAsNumber));
+      this.inputs.set(path, input);
+      return h("label", { class: "field" }, h("span", {}, label), input);
+    });
+    this.fields.replaceChildren(...rows);
+  }
+
+  private set(path: string, value: number): void {
+    if (!Number.isFinite(value)) return;
+    const { class: kind, options } = this.current;
+    const changed = structuredClone(options);
+    const [outer, inner] = path.split("/") as [string, string?];
+    const number = ANGLES.has(path) ? value / DEGREES : value;
+    if (inner === undefined) changed[outer] = number;
+    else (changed[outer] as JsonObject)[inner] = number;
+    this.apply({ class: kind, options: changed });
+  }
+
+  private save(): void {
+    const name = this.name.value.trim() || `View ${this.saved.length + 1}`;
+    this.saved = [...this.saved.filter((one) => one.name !== name), { name, view: this.current }].slice(-MAX_VIEWS);
+    this.name.value = "";
+    this.store();
+  }
+
+  private store(): void {
+    remember("views", this.saved);
+    this.showList();
+  }
+
+  private showList(): void {
+    this.list.replaceChildren(
+      ...this.saved.map((one) =>
+        h(
+          "li",
+          {},
+          h(
+            "button",
+            { type: "button", class: "small", on: { click: () => this.apply(one.view) } },
+            shorten(one.name, MAX_NAME),
+          ),
+          iconButton("close", `Delete ${shorten(one.name, MAX_NAME)}`, () => {
+            this.saved = this.saved.filter((other) => other !== one);
+            this.store();
+          }),
+        ),
+      ),
+    );
+  }
+
+  private async share(): Promise<void> {
+    link("view", [JSON.stringify(this.current)]);
+    const address = location.href;
+    link("view", []);
+    const ok = await copyText(address);
+    toast(
+      ok ? "Copied: a link to this view" : "The browser does not allow this page to use the clipboard.",
+      null,
+      "info",
+    );
+  }
+}
+
+/** The numbers of a view by their paths, such as "Focal Point/X". */
+function numbersOf(options: JsonObject, prefix = ""): Map<string, number> {
+  const found = new Map<string, number>();
+  for (const [key, value] of Object.entries(options))
+    if (typeof value === "number") found.set(prefix + key, value);
+    else if (value && typeof value === "object" && !Array.isArray(value) && !prefix)
+      for (const [path, number] of numbersOf(value, `${key}/`)) found.set(path, number);
+  return found;
+}
+
+function isView(value: unknown): value is CameraView {
+  const view = value as Partial<CameraView> | null;
+  return typeof view?.class === "string" && typeof view.options === "object" && !Array.isArray(view.options);
+}
