@@ -158,6 +158,12 @@ BEHAVIORS: Final[Mapping[str, Behavior]] = {
         "absent",
         "present",
     ),
+    "endpoint_information": Behavior(
+        "information on publishers and subscriptions, also that of `topic info --verbose`",
+        _JAZZY,
+        "no type hash in the text; identifiers of 24 bytes",
+        "the type hash in the text; identifiers of 16 bytes",
+    ),
     "bag_filter": Behavior(
         "positional arguments of `rosbag2_py.StorageFilter`",
         _JAZZY,

@@ -173,7 +173,7 @@ def test_output_of_processes(launched, tmp_path):
     assert code == 0
     text = "\n".join(lines)
     assert "process has died [pid PID, exit code 3, cmd '" in text
-    assert "process cannot be started: [Errno 2] No such file or directory: '/no/such/program'" in text
+    assert "process cannot be started: /no/such/program: No such file or directory" in text
     assert "<own format>" in lines
     ends = {line.partition("] ")[2] for line in lines if line.startswith(("[p-", "[shell-"))}
     assert {"out", "err", "logged err", "x None", "True", "42 in the shell", f"y{os.environ['PATH']}"} == ends

@@ -329,3 +329,20 @@ def test_rules_that_ros_accepts(rule):
 def test_arguments_that_are_not_text_are_an_error():
     with pytest.raises(UnicodeEncodeError, match="surrogates not allowed"):
         Context().init(args=["\udcff"])
+
+
+@pytest.mark.parametrize(
+    ("name", "is_accepted"),
+    [
+        *((name, True) for name in ("qos_overrides./scan.publisher.depth", "/a", "a/", "a//b", "a./", "//", "a__b")),
+        *((name, False) for name in ("a..b", ".a", "a.", "a.1", "a/1", "__a", "~/x", "x-y", "a b")),
+    ],
+)
+def test_names_of_parameters_that_ros_accepts(name, is_accepted):
+    arguments = ["--ros-args", "-p", f"{name}:=1", "-p", f"camera:{name}:=2"]
+    if is_accepted:
+        given = [(each.node_pattern, each.name, each.value) for each in _arguments.parse(arguments).parameters]
+        assert given == [("/**", name, 1), ("camera", name, 2)]
+        return
+    with pytest.raises(RCLInvalidROSArgsError, match="the name of a parameter consists of"):
+        _arguments.parse(arguments)

@@ -4,6 +4,7 @@
 import pytest
 
 import rclpy
+from coframe import distributions
 from rclpy.context import Context
 from rclpy.duration import Infinite
 from rclpy.exceptions import (
@@ -90,7 +91,7 @@ def test_destroying_twice_has_no_effect(node):
         node.create_publisher(String, "a", 10)
 
 
-def test_graph(make_node, wait_until):
+def test_graph(make_node, wait_until, monkeypatch):
     talker, listener = make_node("talker", namespace="/a"), make_node("listener")
     publisher = talker.create_publisher(String, "/chatter", 10)
     listener.create_subscription(String, "/chatter", lambda _: None, 10)
@@ -104,7 +105,7 @@ def test_graph(make_node, wait_until):
     assert "/a/talker" in listener.get_fully_qualified_node_names()
     [info] = listener.get_publishers_info_by_topic("/chatter")
     assert (info.node_name, info.node_namespace, info.topic_type) == ("talker", "/a", "std_msgs/msg/String")
-    assert len(info.endpoint_gid) == 24
+    assert len(info.endpoint_gid) == 16
     assert info.qos_profile.deadline == info.qos_profile.lifespan == Infinite
     assert "\nEndpoint type: PUBLISHER\n" in str(info)
     assert str(info.topic_type_hash).startswith("RIHS01_")
@@ -114,6 +115,11 @@ def test_graph(make_node, wait_until):
         info.endpoint_gid
     ]
     assert ("/chatter", ["std_msgs/msg/String"]) in listener.get_publisher_names_and_types_by_node("talker", "/a")
+    assert "\nTopic type hash: RIHS01_" in str(info)
+    monkeypatch.setattr(distributions, "current", lambda: distributions.Distribution.HUMBLE)
+    [info_on_humble] = listener.get_publishers_info_by_topic("/chatter")
+    assert info_on_humble.endpoint_gid == info.endpoint_gid + 8 * [0]
+    assert "hash" not in str(info_on_humble)
     with pytest.raises(ValueError, match="topic name 'a b' is invalid"):
         listener.get_publishers_info_by_topic("a b")
 

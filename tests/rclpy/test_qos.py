@@ -129,7 +129,9 @@ def test_qos_override_parameters(make_node):
     ):
         node.create_publisher(String, "wrong", 10, qos_overriding_options=usual)
     never = QoSOverridingOptions([], callback=lambda _: SetParametersResult(successful=False, reason="not so"))
-    with pytest.raises(InvalidQosOverridesError, match="not so"):
+    assert node.describe_parameter(name).description == "history for subscription `/words` with id `None`"
+    text = "Provided QoS overrides for publisher `/refused` with id `None`, are not valid: not so"
+    with pytest.raises(InvalidQosOverridesError, match=text):
         node.create_publisher(String, "refused", 10, qos_overriding_options=never)
 
 

@@ -12,6 +12,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Final
 
 from coframe._files.complete_files import write_complete
+from coframe._files.os_errors import reason
 from coframe._files.regular_files import open_regular, read_regular
 from coframe._sources.sources import Source
 from coframe.bags._batch_results import Omission, QueryResult, query_as_dict
@@ -126,9 +127,8 @@ def write_part(part: Path, tables: Iterable[Any], result: Callable[[], QueryResu
         temporary.replace(part)
         write_complete(_checksum_file(part), f"{checksum}  {part.name}\n".encode())
     except OSError as error:
-        reason = os.strerror(error.errno) if error.errno else str(error)
         raise RecordingError(
-            f"{part} cannot be written: {reason}", hint="Check the free space and the write permission."
+            f"{part} cannot be written: {reason(error)}", hint="Check the free space and the write permission."
         ) from None
     finally:
         _remove(temporary)

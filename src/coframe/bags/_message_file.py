@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, cast
 
 import numpy as np
 
+from coframe._files.os_errors import reason
 from coframe.bags._compression import DamagedError
 from coframe.bags.storage import Batch, Channel, Storage, read_at
 from coframe.errors import RecordingError
@@ -115,7 +116,7 @@ class MessageFile(Storage):
                 self._bytes.flush()
         except OSError as error:
             raise RecordingError(
-                f"the messages of {self.path} cannot be written to a temporary file: {error.strerror or error}",
+                f"the messages of {self.path} cannot be written to a temporary file: {reason(error)}",
                 hint=f"Free space in {tempfile.gettempdir()}, or set TMPDIR to another folder.",
             ) from None
         self._offsets.append(self._offsets[-1] + len(data))

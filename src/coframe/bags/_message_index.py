@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 
+from coframe._files.os_errors import explain
 from coframe._output.formatting import did_you_mean
 from coframe.bags._compression import DamagedError
 from coframe.errors import RecordingError
@@ -255,7 +256,7 @@ class MessageIndex:
         try:
             return track.storage.read(position)
         except (DamagedError, OSError) as error:
-            track.storage.add_problem(f"a message on {track.channel.topic} cannot be read again: {error}")
+            track.storage.add_problem(f"a message on {track.channel.topic} cannot be read again: {explain(error)}")
             return None
 
     def _check_open(self) -> None:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from coframe import time
 from coframe._files.complete_files import write_complete
+from coframe._files.os_errors import reason
 from coframe._process.optional_imports import pip_install
 from coframe.bags._latched_messages import LatchedMessages, LatchedSpace
 from coframe.bags._mcap_writer import compressor
@@ -139,7 +140,7 @@ class Writer:
             ) from None
         except OSError as error:
             raise RecordingError(
-                f"{self.path} cannot be created: {error.strerror or error}",
+                f"{self.path} cannot be created: {reason(error)}",
                 hint="Choose a folder with write permission.",
             ) from None
         self._file = self._guard_write(self._open)
@@ -317,7 +318,7 @@ class Writer:
 
     def _write_error(self, error: OSError) -> RecordingError:
         return RecordingError(
-            f"{self.path} cannot be written: {error.strerror or error}",
+            f"{self.path} cannot be written: {reason(error)}",
             hint="Check the free space and the write permission. The messages written before this error can be read.",
         )
 

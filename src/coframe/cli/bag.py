@@ -14,6 +14,7 @@ import click
 from rich.table import Table
 from rich.text import Text
 
+from coframe._files.os_errors import explain
 from coframe._output.escaping import display_name
 from coframe._output.formatting import count, join_names, seconds
 from coframe.bags import COMPRESSIONS, parse_time_point, repair, summarize
@@ -263,7 +264,7 @@ def reindex(bag: Readable, storage: str | None) -> None:
         try:
             rosbag2_py.Reindexer().reindex(rosbag2_py.StorageOptions(str(bag)))
         except (OSError, RuntimeError) as error:
-            fail(str(error))
+            fail(explain(error))
         print(printable(f"{bag / METADATA} was written"))
 
 

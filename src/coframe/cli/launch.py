@@ -12,6 +12,7 @@ import click
 from click.exceptions import Exit
 
 from coframe._files.existence import exists, is_dir
+from coframe._files.os_errors import explain
 from coframe._files.regular_files import check_regular, reading_hint
 from coframe._output.formatting import did_you_mean
 from coframe.cli.declaration import PASS_ARGUMENTS_ON, Command, argument
@@ -153,7 +154,7 @@ def _description(path: Path) -> LaunchDescription:
     try:
         return get_launch_description_from_any_launch_file(str(path))
     except Exception as error:  # noqa: BLE001 - a launch file is a program, which may raise anything
-        fail(f"{path}: {type(error).__name__}: {error}", getattr(error, "hint", ""))
+        fail(f"{path}: {type(error).__name__}: {explain(error)}", getattr(error, "hint", ""))
 
 
 def _show_arguments(description: LaunchDescription) -> None:

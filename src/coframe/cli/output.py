@@ -12,6 +12,7 @@ import click
 from click.exceptions import Exit
 
 from coframe._files.bounded_lines import print_bounded
+from coframe._files.os_errors import reason
 from coframe._output.escaping import one_line, printable
 from coframe.cli.system_errors import writing_advice
 from coframe.time import SECOND
@@ -50,7 +51,7 @@ def fail(text: str, hint: str = "", *, code: int = 1, details: str = "") -> NoRe
 def fail_to_write(path: Path | None, error: OSError, *, code: int = 1) -> NoReturn:
     """End the command because a file (or, without a path, standard output) could not be written."""
     name = "standard output" if path is None else path
-    fail(f"{name} cannot be written: {error.strerror or error}", writing_advice(error), code=code)
+    fail(f"{name} cannot be written: {reason(error)}", writing_advice(error), code=code)
 
 
 def with_doctor_command(hint: str) -> str:

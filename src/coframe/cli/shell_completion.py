@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Final
 
 from click.shell_completion import get_completion_class
 
+from coframe._files.os_errors import explain
 from coframe._files.regular_files import read_regular_text
 from coframe.cli.output import fail
 
@@ -54,7 +55,7 @@ def install(ctx: click.Context) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
-        fail(f"the completion for {shell} cannot be installed: {error}")
+        fail(f"the completion for {shell} cannot be installed: {explain(error)}")
     print(f"{shell} completion installed in {path}\nOpen a new terminal to use it.")
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import errno
 
+from coframe._files.os_errors import reason
+
 __all__ = ["description", "writing_advice"]
 
 _DISK_FULL_CODES = {errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC)}
@@ -28,4 +30,4 @@ def description(error: OSError) -> str:
     advice = _ADVICE.get(error.errno or 0, "")
     if "temporary directory" in str(error):  # the message of tempfile and of packages that use it
         advice = "Set TMPDIR to a folder with write permission."
-    return f"coframe: {file}{error.strerror or error}" + (f"\n  {advice}" if advice else "")
+    return f"coframe: {file}{reason(error)}" + (f"\n  {advice}" if advice else "")

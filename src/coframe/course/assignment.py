@@ -9,6 +9,7 @@ import os
 import random
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe._files.os_errors import reason
 from coframe.course.submitted import read_submitted
 from coframe.errors import CourseError
 
@@ -107,7 +108,7 @@ def read_assignment(folder: Path) -> Assignment:
     try:
         content = json.loads(read_submitted(path))
     except (OSError, ValueError, RecursionError) as error:
-        raise CourseError(f"Cannot read {path}: {error}", hint=_HINT) from None
+        raise CourseError(f"Cannot read {path}: {reason(error)}", hint=_HINT) from None
     variant = content.get("variant") if isinstance(content, dict) else None
     if not isinstance(content, dict) or content.get("lab") != _LAB or not isinstance(variant, int | None):
         raise CourseError(f"{path} does not describe an assignment of lab {_LAB}.", hint=_HINT)

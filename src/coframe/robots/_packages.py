@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from urllib.parse import unquote
 
 from coframe._files.existence import is_dir, resolved
+from coframe._files.os_errors import reason
 from coframe._files.regular_files import UnsuitableFileError, check_regular
 from coframe.errors import PackageError
 from coframe.workspace.packages.folders import by_name, crawl, existing_folders, package_around
@@ -96,7 +97,7 @@ class Packages:
         except UnsuitableFileError as error:
             raise PackageError(f"{url!r}: {error}", hint=_SEARCH_HINT) from None
         except (OSError, ValueError, RuntimeError) as error:  # circular links, NUL characters, names that are too long
-            raise PackageError(f"{url!r} is not a valid file name: {error}", hint=_SEARCH_HINT) from None
+            raise PackageError(f"{url!r} is not a valid file name: {reason(error)}", hint=_SEARCH_HINT) from None
         return real
 
     def _surrounding_packages(self, url: str) -> tuple[Path, Path]:

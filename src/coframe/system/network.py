@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from coframe import _core
+from coframe._files.os_errors import explain
 from coframe.errors import WireError
 from coframe.wire.dds import config, participants
 from coframe.wire.dds.session import native_qos
@@ -171,7 +172,7 @@ def multicast_problem(address: str) -> str:
             while receiver.recv(64) != word:
                 pass
     except OSError as error:
-        return "nothing was received within 2 s" if isinstance(error, TimeoutError) else str(error)
+        return "nothing was received within 2 s" if isinstance(error, TimeoutError) else explain(error)
     return ""
 
 

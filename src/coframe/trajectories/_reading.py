@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 
+from coframe._files.os_errors import reason
 from coframe._files.other_files import BEGINNING, what_else
 from coframe._output.formatting import count
 from coframe._sources.sources import as_source, open_file
@@ -129,9 +130,7 @@ def read_trajectory(
                 poses, sentences = _read_text(file, iter(partial(text.readline, MAX_LINE + 1), ""), format_)
     except OSError as error:
         name = getattr(error, "filename", None) or path
-        raise TrajectoryError(
-            f"{name} cannot be read: {error.strerror or error}", hint=getattr(error, "hint", "")
-        ) from None
+        raise TrajectoryError(f"{name} cannot be read: {reason(error)}", hint=getattr(error, "hint", "")) from None
     except UnicodeError:
         raise TrajectoryError(f"{file} is not a trajectory: it is not a text file", hint=_LAYOUTS) from None
     except InvalidArgumentException as error:

@@ -20,7 +20,9 @@ _START: Final = "--ros-args"
 _END: Final = "--"
 _DEPRECATED_REMAP: Final = re.compile(r"(?!\d)(?:\w+:)?[~/]?[\w{}]+(?:/[\w{}]+)*:=[~/]?[\w{}/]+")
 _NAME: Final = r"(?!__)[A-Za-z_][A-Za-z0-9_]*"
-_PARAMETER: Final = re.compile(rf"(?:(?P<node>{_NAME}):)?(?P<name>{_NAME}(?:[./]{_NAME})*/?)")
+# Slashes are accepted anywhere in a part: the parameter of the QoS of a topic is qos_overrides./scan.publisher.depth.
+_PART: Final = rf"(?:/+(?:{_NAME}(?:/+{_NAME})*/*)?|{_NAME}(?:/+{_NAME})*/*)"
+_PARAMETER: Final = re.compile(rf"(?:(?P<node>{_NAME}):)?(?P<name>{_PART}(?:\.{_PART})*)")
 _SWITCHES: Final = ("stdout-logs", "rosout-logs", "external-lib-logs")
 
 

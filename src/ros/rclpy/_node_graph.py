@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from rclpy.context import Context
 
 NamesAndTypes = list[tuple[str, list[str]]]
-_GID_LENGTH: Final = 24
+_HUMBLE_GID_LENGTH: Final = 24
 
 
 def _action_graph() -> ModuleType:
@@ -295,10 +295,15 @@ def _info(endpoint: EndpointInfo, kind: TopicEndpointTypeEnum) -> TopicEndpointI
         node_namespace=endpoint.namespace or "_NODE_NAMESPACE_UNKNOWN_",
         topic_type=endpoint.ros_type,
         endpoint_type=kind,
-        endpoint_gid=list(endpoint.guid.ljust(_GID_LENGTH, b"\0")),
+        endpoint_gid=_gid(endpoint),
         qos_profile=_profile(endpoint.qos),
         topic_type_hash=TypeHash.from_text(endpoint.type_hash),
     )
+
+
+def _gid(endpoint: EndpointInfo) -> list[int]:
+    guid = endpoint.guid
+    return list(guid if since("endpoint_information") else guid.ljust(_HUMBLE_GID_LENGTH, b"\0"))
 
 
 def _reply_of(request: EndpointInfo, replies: list[EndpointInfo]) -> EndpointInfo | None:
@@ -317,7 +322,7 @@ def _service_info(
         service_type_hash=TypeHash.from_text(_service_hash(request)),
         endpoint_type=side,
         endpoint_count=len(ends),
-        endpoint_gids=[list(end.guid.ljust(_GID_LENGTH, b"\0")) for end in ends],
+        endpoint_gids=[_gid(end) for end in ends],
         qos_profiles=[_profile(end.qos) for end in ends],
     )
 

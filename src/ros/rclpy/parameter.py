@@ -9,6 +9,7 @@ from typing import Any, Final, Generic, TypeVar
 
 import numpy as np
 
+from coframe._files.os_errors import reason
 from rcl_interfaces.msg import Parameter as ParameterMsg
 from rcl_interfaces.msg import ParameterType, ParameterValue
 from rclpy import _yaml
@@ -223,7 +224,7 @@ def parameter_dict_from_yaml_file(
     try:
         nodes = _yaml.load_parameters(parameter_file)
     except (OSError, ValueError) as error:
-        raise RuntimeError(f"cannot read the parameters of {parameter_file}: {error}") from error
+        raise RuntimeError(f"cannot read the parameters of {parameter_file}: {reason(error)}") from error
     wildcards = [pattern for pattern in nodes if "*" in pattern]
     named = [pattern for pattern in nodes if "*" not in pattern]
     if target_nodes:

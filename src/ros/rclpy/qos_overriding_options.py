@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
 from rclpy.duration import Duration
-from rclpy.exceptions import ParameterAlreadyDeclaredException, ParameterException
+from rclpy.exceptions import ParameterAlreadyDeclaredException
 from rclpy.qos import QoSPolicyEnum, QoSPolicyKind, QoSProfile
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ QosCallbackResult = SetParametersResult
 QosCallbackType = Callable[[QoSProfile], QosCallbackResult]
 
 
-class InvalidQosOverridesError(ParameterException):
+class InvalidQosOverridesError(Exception):
     """A parameter value is not valid for its policy, or the node's callback rejected the profile."""
 
 
@@ -74,22 +74,23 @@ def apply_qos_overrides(
         InvalidQosOverridesError: A value is not valid, or the options' callback rejected the profile.
     """
     suffix = f"_{options.entity_id}" if options.entity_id else ""
+    shown = f"{entity} `{topic}` with id `{options.entity_id}`"  # as in ROS 2
     chosen = copy.copy(qos)
     for kind in options.policy_kinds:
         policy = QoSPolicyKind(kind).name.lower()
         name = f"qos_overrides.{topic}.{entity}{suffix}.{policy}"
         default = getattr(qos, policy)
+        descriptor = ParameterDescriptor(description=f"{policy} for {shown}", read_only=True)
         try:
-            value = node.declare_parameter(name, _as_parameter(default), ParameterDescriptor(read_only=True)).value
+            value = node.declare_parameter(name, _as_parameter(default), descriptor).value
         except ParameterAlreadyDeclaredException:
             value = node.get_parameter(name).value
         try:
             setattr(chosen, policy, _as_policy(value, default))
         except (AssertionError, KeyError):
-            raise InvalidQosOverridesError(f"Invalid {policy} {value!r}{_values(default)}", name) from None
+            raise InvalidQosOverridesError(f"Invalid {policy} {value!r}{_values(default)}: {name}") from None
     if options.callback is not None and not (result := options.callback(chosen)).successful:
-        reason = result.reason or "The node's callback rejected the QoS profile"
-        raise InvalidQosOverridesError(reason, f"qos_overrides.{topic}.{entity}{suffix}")
+        raise InvalidQosOverridesError(f"Provided QoS overrides for {shown}, are not valid: {result.reason}")
     return chosen
 
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import IntEnum
 
+from coframe.distributions import since
 from rclpy.qos import HistoryPolicy, QoSPresetProfiles, QoSProfile
 from rclpy.type_hash import TypeHash
 
@@ -28,7 +29,7 @@ class TopicEndpointInfo:
         topic_type: Type of the messages, for example `std_msgs/msg/String`.
         topic_type_hash: Hash of the type, which endpoints of ROS 2 Iron and later announce.
         endpoint_type: Whether it is a publisher or a subscription.
-        endpoint_gid: The 24 bytes of its identifier: the 16 bytes of the DDS GUID and zeros, as in Humble.
+        endpoint_gid: The 16 bytes of its identifier, the DDS GUID; on Humble they are followed by 8 zeros.
         qos_profile: Its QoS profile. Durations without a limit are `rclpy.duration.Infinite`.
     """
 
@@ -52,6 +53,7 @@ class TopicEndpointInfo:
                 f"Node name: {self.node_name}",
                 f"Node namespace: {self.node_namespace}",
                 f"Topic type: {self.topic_type}",
+                *([f"Topic type hash: {self.topic_type_hash}"] if since("endpoint_information") else ()),
                 f"Endpoint type: {self.endpoint_type.name}",
                 f"GID: {gid}",
                 "QoS profile:",

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from coframe._files.bounded_yaml import MAX_BYTES, read_yaml
+from coframe._files.os_errors import explain
 from coframe._files.regular_files import read_regular
 from coframe.bags import open_bag
 from coframe.bags.copying import copy_recordings
@@ -42,7 +43,7 @@ def bag_rewrite(input_options: Sequence[StorageOptions], output_config_file: str
         for output in outputs:
             _copy(sources, topics, output)
     except (RecordingError, OSError, ValueError) as error:
-        raise RuntimeError(str(error)) from error
+        raise RuntimeError(explain(error)) from error
 
 
 def _outputs(path: str) -> list[dict[str, Any]]:

@@ -181,9 +181,9 @@ def test_a_service_type_of_two_parts(run):
 def test_waiting_for_a_server_has_a_word_and_a_limit(run, monkeypatch):
     monkeypatch.setattr("coframe.cli.ros2.calls.ENDPOINT_TIMEOUT", 0.2)
     call = run("service", "call", "/swich", "std_srvs/srv/SetBool", "--timeout", "0.5s", code=1)
-    assert "There is no service /swich yet: waiting for it. Did you mean '/switch'?" in call
+    assert "There is no service /swich yet: waiting for it for at most 0.5s. Did you mean '/switch'?" in call
     assert "There was no service /swich within 0.5s." in call
     kind = "tf2_msgs/action/LookupTransform"
     goal = run("action", "send_goal", "/lokup", kind, "{}", "--timeout", "0.5", code=1)
-    assert "There is no action server /lokup yet: waiting for it. Did you mean '/lookup'?" in goal
+    assert "There is no action server /lokup yet: waiting for it for at most 0.5. Did you mean '/lookup'?" in goal
     assert "There was no action server /lokup within 0.5." in goal

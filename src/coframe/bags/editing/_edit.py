@@ -10,6 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe._files.os_errors import reason
 from coframe._sources.sources import as_source
 from coframe.bags._compression import DamagedError
 from coframe.bags._problems import Problems
@@ -125,7 +126,7 @@ def edit(
                 f"{source} is damaged: {error}", hint="Repair it first: `coframe bag fix BAG OUT`, then edit OUT."
             ) from None
         except OSError as error:
-            raise RecordingError(f"{error.filename or source}: {error.strerror or error}") from error
+            raise RecordingError(f"{error.filename or source}: {reason(error)}") from error
     remarks = [remark for rule in rules for remark in rule.remarks()]
     notes = [*opened.notes, *problems.sentences(), *remarks]
     return EditReport(target, sum(file.messages for file in files), counts, notes)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from coframe._files.bounded_yaml import read_yaml
 from coframe._files.complete_files import write_complete
+from coframe._files.os_errors import reason
 from coframe._files.regular_files import UnsuitableFileError, read_regular
 from coframe._output.formatting import did_you_mean
 from coframe._process.optional_imports import pip_install
@@ -124,7 +125,7 @@ class Recipe:
                 "recipes need the package PyYAML, which is not installed", hint=pip_install("bags")
             ) from None
         except (OSError, UnsuitableFileError) as error:
-            raise RecordingError(f"{path} cannot be read: {error.strerror or error}") from None
+            raise RecordingError(f"{path} cannot be read: {reason(error)}") from None
         except ValueError as error:
             raise EditError(f"{path} is not valid YAML: {' '.join(str(error).split())[:200]}") from None
         return cls(_entries(path, content))
@@ -138,7 +139,7 @@ class Recipe:
         try:
             write_complete(path, str(self).encode())
         except OSError as error:
-            raise RecordingError(f"{path} cannot be written: {error.strerror or error}") from None
+            raise RecordingError(f"{path} cannot be written: {reason(error)}") from None
 
     def __str__(self) -> str:
         """Return the recipe as YAML."""

@@ -11,6 +11,7 @@ import numpy as np
 
 from coframe import quaternion
 from coframe._base_error import CoframeError
+from coframe._files.os_errors import reason
 from coframe.bags.editing._calibrations import calibrated_transforms
 from coframe.bags.formats import is_recording
 from coframe.bags.recording import open_bag
@@ -94,7 +95,7 @@ def read_static_transforms(path: Path, names: dict[str, str], survey: Survey) ->
     except CoframeError as error:
         raise EditError(str(error), hint=error.hint) from error
     except OSError as error:
-        raise EditError(f"{path} cannot be read: {error.strerror or error}") from None
+        raise EditError(f"{path} cannot be read: {reason(error)}") from None
     found = [
         one._replace(parent=names.get(one.parent, one.parent), child=names.get(one.child, one.child)) for one in found
     ]

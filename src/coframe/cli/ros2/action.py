@@ -12,7 +12,16 @@ from coframe._output.formatting import did_you_mean
 from coframe.cli.declaration import CommandGroup, argument
 from coframe.cli.options import NonNegativeDuration, PositiveDuration, topic_name
 from coframe.cli.output import fail, one_line, print_bounded, printable
-from coframe.cli.ros2.calls import Deadline, await_response, timeout_option, wait_for_server
+from coframe.cli.ros2.calls import (
+    MAX_WAIT_FOR_RESPONSE,
+    MAX_WAIT_FOR_SERVER,
+    Deadline,
+    Presence,
+    await_response,
+    is_complete,
+    timeout_option,
+    wait_for_server,
+)
 from coframe.cli.ros2.events import echo_action
 from coframe.cli.ros2.graph import (
     DISCOVERY_TIME,
@@ -34,8 +43,6 @@ if TYPE_CHECKING:
     from rclpy.node import Node
 
 __all__ = ["action"]
-
-_PERIOD = 1.0  # seconds
 
 action_argument = argument(
     "action_name", metavar="ACTION", type=topic_name, help="Name of the action, e.g. /fibonacci."
@@ -145,56 +152,84 @@ def send_goal(
         client = ActionClient(node, kind, action_name)
         try:
             print("Waiting for an action server to become available...", flush=True)
-            deadline = Deadline(timeout)
+            limit = Deadline(timeout or MAX_WAIT_FOR_SERVER)
             shown = f"action server {action_name}"
             wait_for_server(
-                client, client.wait_for_server, shown, deadline, lambda: _similar_names_hint(node, action_name)
+                client, client.wait_for_server, shown, limit, lambda: _similar_names_hint(node, action_name)
             )
-            _follow_goal(node, client, message, shown, deadline, feedback=feedback)
+            if timeout is None:
+                limit = Deadline(MAX_WAIT_FOR_RESPONSE)
+            _follow_goal(node, client, message, shown, limit, prints_feedback=feedback, is_idle_limit=timeout is None)
         finally:
             client.destroy()
 
 
-def _follow_goal(node: Node, client: Any, goal: Any, shown: str, deadline: Deadline, *, feedback: bool) -> None:
-    """Send the goal, and print its progress until it is finished; cancel it after the deadline."""
-    early: list[Any] = []  # feedback that arrives before the acceptance is printed
-    accepted = False
+class _Feedback:
+    """Prints the feedback of a goal, that which arrives before the acceptance of the goal after it.
 
-    def print_feedback(message: Any) -> None:
-        if accepted:
+    Args:
+        is_printed: Whether to print it.
+        deadline: The end of the wait that each feedback extends, or None.
+    """
+
+    def __init__(self, *, is_printed: bool, deadline: Deadline | None) -> None:
+        self._is_printed = is_printed
+        self._deadline = deadline
+        self._waiting: list[Any] | None = []  # None after the acceptance
+
+    def receive(self, message: Any) -> None:
+        """Extend the wait, and print the feedback of a message."""
+        if self._deadline is not None:
+            self._deadline.extend()
+        if self._waiting is not None:
+            self._waiting.append(message)
+        elif self._is_printed:
             _print_indented("Feedback", message.feedback)
-        else:
-            early.append(message)
 
+    def start(self) -> None:
+        """Print the feedback that has arrived; the goal is accepted."""
+        waiting, self._waiting = self._waiting or [], None
+        for message in waiting:
+            self.receive(message)
+
+
+def _follow_goal(
+    node: Node, client: Any, goal: Any, shown: str, deadline: Deadline, *, prints_feedback: bool, is_idle_limit: bool
+) -> None:
+    """Send the goal, and print its progress until it is finished; cancel it after the deadline.
+
+    With `is_idle_limit`, each feedback extends the deadline.
+    """
+    feedback = _Feedback(is_printed=prints_feedback, deadline=deadline if is_idle_limit else None)
     _print_indented("Sending goal", goal)
-    sent = client.send_goal_async(goal, print_feedback if feedback else None)
-    handle = await_response(node, sent, shown, deadline)
+    sent = client.send_goal_async(goal, feedback.receive)
+    handle = await_response(node, sent, shown, deadline, client.server_is_ready)
     if not handle.accepted:
         fail("Goal was rejected.")
     print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n", flush=True)
-    accepted = True
-    for message in early:
-        print_feedback(message)
-    result = handle.get_result_async()
+    feedback.start()
     try:
-        response = _await_result(node, result, deadline)
+        response = _await_result(node, handle.get_result_async(), deadline, Presence(client.server_is_ready, shown))
     except KeyboardInterrupt:
         _cancel(node, handle)
         raise
     if response is None:
         _cancel(node, handle)
+        if is_idle_limit:
+            hint = "Set --timeout to a longer time if the goal takes longer."
+            fail(f"The {shown} sent no feedback and no result for {deadline.limit}.", hint)
         fail(f"The goal was not finished within {deadline.limit}.")
     _print_indented("Result", response.result)
     print(f"Goal finished with status: {_status_name(response.status)}")
 
 
-def _await_result(node: Node, result: Any, deadline: Deadline) -> Any:
+def _await_result(node: Node, result: Any, deadline: Deadline, server: Presence) -> Any:
     """Return the result of a goal, which may take long, or None after the deadline."""
-    import rclpy  # noqa: PLC0415 - slow import
-
-    while not (result.done() or deadline.has_passed):
-        rclpy.spin_until_future_complete(node, result, timeout_sec=deadline.remaining(_PERIOD))
-    return result.result() if result.done() else None
+    while not is_complete(node, result, deadline):
+        if deadline.has_passed:
+            return None
+        server.check()
+    return result.result()
 
 
 @action.command("type", cls=GraphCommand, short_help="Print the type of an action.")

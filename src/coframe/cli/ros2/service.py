@@ -13,7 +13,14 @@ from coframe._output.formatting import did_you_mean
 from coframe.cli.declaration import CommandGroup, argument
 from coframe.cli.options import NonNegativeDuration, PositiveDuration, topic_name
 from coframe.cli.output import fail, one_line, printable
-from coframe.cli.ros2.calls import Deadline, await_response, timeout_option, wait_for_server
+from coframe.cli.ros2.calls import (
+    MAX_WAIT_FOR_RESPONSE,
+    MAX_WAIT_FOR_SERVER,
+    Deadline,
+    await_response,
+    timeout_option,
+    wait_for_server,
+)
 from coframe.cli.ros2.events import echo_service
 from coframe.cli.ros2.graph import (
     DISCOVERY_TIME,
@@ -95,13 +102,13 @@ def call(
         shown = f"service {service_name}"
         if not client.service_is_ready():
             print("waiting for service to become available...", flush=True)
-            wait_for_server(
-                client, client.wait_for_service, shown, Deadline(timeout), lambda: _similar(node, service_name)
-            )
+            limit = Deadline(timeout or MAX_WAIT_FOR_SERVER)
+            wait_for_server(client, client.wait_for_service, shown, limit, lambda: _similar(node, service_name))
         while True:
             fill_stamps(node.get_clock().now().to_msg())
             print(f"requester: making request: {request!r}\n", flush=True)
-            response = await_response(node, client.call_async(request), shown, Deadline(timeout))
+            limit = Deadline(timeout or MAX_WAIT_FOR_RESPONSE)
+            response = await_response(node, client.call_async(request), shown, limit, client.service_is_ready)
             print(f"response:\n{response!r}\n", flush=True)
             if rate is None:
                 return

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from coframe._files.os_errors import explain
 from coframe.course._program import StudentProgram
 from coframe.course.submitted import MISSING_FILE, check_submitted, is_submitted
 from coframe.errors import CoframeError, CourseError
@@ -133,7 +134,7 @@ def expanded_xacro(task: Task, file: Path) -> tuple[str, str]:
     except (CoframeError, OSError) as error:
         if attempt := program.attempt():
             return "", attempt
-        raise CourseError(program.violation or str(error)) from None
+        raise CourseError(program.violation or explain(error)) from None
     return text, program.attempt()
 
 

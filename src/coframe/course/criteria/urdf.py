@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from coframe._files.os_errors import explain
 from coframe.course._motion import SimulatedRobot
 from coframe.course._sheet import Sheet
 from coframe.course.criteria.common import Task, difference_text, expanded_xacro
@@ -38,7 +39,7 @@ def check(task: Task) -> Sheet:
                 text, attempt = expanded_xacro(task, file)
             description, problem = parse_urdf(text), ""
         except (CoframeError, OSError, ValueError) as error:
-            problem = str(error)
+            problem = explain(error)
     sheet.check(
         2,
         "the description can be read",

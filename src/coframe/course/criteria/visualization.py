@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from coframe._files.os_errors import explain
 from coframe.analysis.tree import FrameTrees
 from coframe.course._sheet import Sheet
 from coframe.course.criteria.common import Task, read_edge, run_program
@@ -64,7 +65,7 @@ def _configuration(folder: Path) -> RvizConfig | str:
     try:
         return RvizConfig.parse(read_submitted(files[0]), files[0].name)
     except (CourseError, ViewerError, OSError) as error:
-        return str(error)
+        return explain(error)
 
 
 def _check_configuration(sheet: Sheet, config: RvizConfig | str) -> None:

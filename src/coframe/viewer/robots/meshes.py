@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from urllib.parse import quote, unquote, urlsplit
 
 from coframe._files.existence import resolved
+from coframe._files.os_errors import reason
 from coframe._files.regular_files import check_regular
 from coframe.errors import CoframeError
 from coframe.workspace.packages.share_view import source_of
@@ -164,7 +165,7 @@ def _resolve(path: Path) -> Path:
     try:
         return path.resolve()
     except (OSError, RuntimeError, ValueError) as error:  # A loop of links, a NUL, or a name that is too long.
-        raise MeshError(f"{_shown(str(path))} is not a valid path: {error}") from None
+        raise MeshError(f"{_shown(str(path))} is not a valid path: {reason(error)}") from None
 
 
 def _check_file(file: Path, reference: str) -> None:

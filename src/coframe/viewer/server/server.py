@@ -14,6 +14,7 @@ from http import HTTPStatus
 from typing import TYPE_CHECKING, Any
 from urllib.parse import parse_qsl, unquote, urlencode, urlsplit
 
+from coframe._files.os_errors import explain
 from coframe._files.regular_files import read_regular
 from coframe.errors import PlotError, ViewerError
 from coframe.viewer._page_files import STATIC
@@ -231,7 +232,7 @@ class ViewerServer:
             file = self._state.meshes.file(path)
             return response(HTTPStatus.OK, read_regular(file, MAX_MESH_BYTES), MESH_TYPES[file.suffix.lower()], policy)
         except (MeshError, OSError) as error:
-            return text_response(HTTPStatus.NOT_FOUND, str(error), policy)
+            return text_response(HTTPStatus.NOT_FOUND, explain(error), policy)
 
     def _answer_socket(self, request: Request) -> Response | None:
         policy = self._access.content_security

@@ -12,6 +12,7 @@ import traceback
 from typing import TYPE_CHECKING, Any
 
 import launch.logging
+from coframe._files.os_errors import explain
 from coframe.workspace.entry_point import LAUNCHER
 from launch.action import Action
 from launch.actions.opaque_function import OpaqueFunction
@@ -299,7 +300,7 @@ class ExecuteLocal(Action):
             )
         except (OSError, ValueError) as error:
             self.__logger.error(  # noqa: TRY400 - the traceback is for --debug only
-                f"process cannot be started: {error}. The command was: {shown}"
+                f"process cannot be started: {explain(error)}. The command was: {shown}"
             )
             self.__logger.debug(traceback.format_exc())
             return False

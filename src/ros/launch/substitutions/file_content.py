@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from coframe._files.bounded_yaml import MAX_BYTES
+from coframe._files.os_errors import reason
 from coframe._files.regular_files import read_regular_text
 from launch.frontend.arguments import check_arguments
 from launch.frontend.expose import expose_substitution
@@ -50,4 +51,4 @@ class FileContent(Substitution):
         try:
             return read_regular_text(path, MAX_BYTES)
         except (OSError, UnicodeDecodeError) as error:
-            raise SubstitutionFailure(f"Failed to open substitution file: {path}: {error}") from error
+            raise SubstitutionFailure(f"Failed to open substitution file: {path}: {reason(error)}") from error
