@@ -232,7 +232,11 @@ print(len(recording.topics), len(recording.problems), memory, time.process_time(
 
 @pytest.mark.skipif(sys.platform != "linux", reason="/proc")
 @pytest.mark.parametrize(
-    ("head", "type_"), [("", "sensor_msgs/msg/JointState"), ("std_msgs/Header header\n", "lab/msg/Own")]
+    ("head", "type_"),
+    [
+        ("", "sensor_msgs/msg/JointState"),
+        pytest.param("std_msgs/Header header\n", "lab/msg/Own", marks=pytest.mark.slow),
+    ],
 )
 def test_ten_thousand_different_definitions_take_little_memory_and_time(tmp_path, head, type_):
     many_definitions(tmp_path / "a.mcap", 10_000, head, type_)

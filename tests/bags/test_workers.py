@@ -63,8 +63,14 @@ def assert_items(items):
         assert int.from_bytes(data[8:12], "little") * SECOND + int.from_bytes(data[12:16], "little") == stamp
 
 
-@pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("name", ["run.mcap", "run.bag", "run.db3"])
+@pytest.mark.parametrize(
+    ("method", "name"),
+    [
+        *((method, "run.mcap") for method in METHODS),
+        *((METHODS[-1], name) for name in ("run.bag", "run.db3")),
+        *(pytest.param("spawn", name, marks=pytest.mark.slow) for name in ("run.bag", "run.db3")),
+    ],
+)
 def test_workers_read_a_recording(tmp_path, method, name):
     writers = {".mcap": write_mcap, ".bag": write_rosbag1, ".db3": lambda path: write_sqlite(path, 4)}
     path = writers[name[name.index(".") :]](tmp_path / name)

@@ -11,7 +11,7 @@ from scipy import stats
 from coframe import Transform
 from coframe.errors import FrameMismatchException, InvalidArgumentException
 
-SAMPLES = 400_000
+SAMPLES = 200_000
 
 
 def random_transform(rng, shape=(), **names):

@@ -95,21 +95,21 @@ def test_one_explained_part_is_named_alone():
 def test_poses_that_no_mistake_relates_are_not_explained():
     """Of random pairs of mounts, none is explained: a wrong cause would be worse than none."""
     random = np.random.default_rng(5)
-    turns = Rotation.random(600, random).as_quat()
-    places = random.uniform(-1, 1, (600, 3))
+    turns = Rotation.random(200, random).as_quat()
+    places = random.uniform(-1, 1, (200, 3))
     poses = np.concatenate([places, turns], axis=1)
-    assert [explain(poses[i : i + 1], poses[i + 1 : i + 2]) for i in range(0, 600, 2)] == [None] * 300
+    assert [explain(poses[i : i + 1], poses[i + 1 : i + 2]) for i in range(0, 200, 2)] == [None] * 100
 
 
 def test_turns_about_one_axis_that_differ_by_chance_are_rarely_explained():
     """With one angle, a chance match within 1 mrad is possible; it must stay as rare as the tolerance implies."""
     random = np.random.default_rng(6)
-    angles = random.uniform(-np.pi, np.pi, (500, 2))
+    angles = random.uniform(-np.pi, np.pi, (200, 2))
     found = [
         explain(pose(Rotation.from_euler("z", first)), pose(Rotation.from_euler("z", second)))
         for first, second in angles
     ]
-    assert sum(each is not None for each in found) <= 5
+    assert sum(each is not None for each in found) <= 2
 
 
 @pytest.mark.parametrize("angles", MOUNTS)

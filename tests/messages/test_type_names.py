@@ -2,6 +2,7 @@
 """Each name of a type that several parts use is written in one file."""
 
 import ast
+import functools
 from pathlib import Path
 
 import pytest
@@ -16,6 +17,7 @@ NAMES = {
 }
 
 
+@functools.cache
 def literals(file):
     tree = ast.parse(file.read_text(encoding="utf-8"))
     return {node.value for node in ast.walk(tree) if isinstance(node, ast.Constant) and isinstance(node.value, str)}
