@@ -116,6 +116,13 @@ RECORDED = {
     "doctor": _cases("doctor", "{bag}", "{bag} --json", "{bag} --sarif"),
     "contract init": _cases("contract init", "{bag} -o {output}.yaml"),
     "contract check": _cases("contract check", "{bag} -c {contract}", "{bag} -c {contract} --github", "{bag} -c {bag}"),
+    "calib show": _cases("calib show", "{bag}", [MISSING]),
+    "calib convert": _cases(
+        "calib convert", "{bag} -o {output}.urdf", ["{bag}", "-o", "{output}.yaml", "--camera", MISSING]
+    ),
+    "calib diff": _cases(
+        "calib diff", "{bag} {bag}", "{bag} {bag} --json", ["{bag}", "{bag}", "--rename", f"{MISSING}=x"]
+    ),
     "why": _cases("why", *(["{bag}", "map", name] for name in (*NAMES[:-1], MISSING))),
     "lookup": _cases("lookup", *(["{bag}", "map", name] for name in (*NAMES[:-1], MISSING, f"{NEWLINE}2"))),
     "bag info": _cases("bag info", "{bag}", "{bag} --json"),

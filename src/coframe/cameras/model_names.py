@@ -121,7 +121,7 @@ def lens_of(name: str, coefficients: Sequence[float] = ()) -> Lens:
     found = canonical_name(name)
     if found is None:
         if values and not any(values):
-            return PolynomialLens()  # Whatever the model is, most have no distortion without coefficients.
+            return PolynomialLens()  # Coefficients of 0 are a pinhole in nearly all models.
         raise CameraError(
             f"the distortion model {shown} with {len(values)} coefficients is not supported",
             hint=f"Supported models: {join_names(LENS_NAMES)}.",

@@ -63,6 +63,7 @@ COMMANDS: dict[str, CommandRow] = {
         graph=frozenset({"check"}),
         ros=False,
     ),
+    "calib": CommandRow("Read, convert and compare calibrations.", "calib", ("bags", "robots"), graph=False, ros=False),
     "why": CommandRow("Explain why a transform is or is not available.", "why", ("dds", "bags"), graph=True, ros=False),
     "frames": CommandRow(
         "Show the transform trees, or write a diagram of them.",
