@@ -209,7 +209,7 @@ def typescript(version: str) -> str:
             _alias(name)
             for name in (
                 *("ViewerMode", "FrameActivity", "DisplayState", "Severity", "FindingsState", "ColorBy"),
-                *("LogLevel", "CompletionKind", "NodeKind", "WidgetKind", "ShapeKind", "JointKind"),
+                *("LogLevel", "CompletionKind", "NodeKind", "UploadState", "WidgetKind", "ShapeKind", "JointKind"),
             )
         ),
         *(_interface(one) for one in all_records),

@@ -12,6 +12,8 @@ import urllib.request
 import numpy as np
 import pytest
 
+import coframe
+
 pytest.importorskip("dds_library", reason="the commands join the ROS graph")
 
 COMMAND = [sys.executable, "-m", "coframe.cli"]
@@ -129,3 +131,28 @@ def test_options_of_replays_are_checked(words, text):
     result = subprocess.run([*COMMAND, *words], capture_output=True, text=True, check=False)
     assert (result.returncode, result.stdout) == (2, "")
     assert result.stderr.startswith(f"coframe: {text}\n")
+
+
+def test_xacro_arguments_are_passed_to_the_robot(tmp_path, open_tab):
+    pytest.importorskip("xacro", reason="needs xacro")
+    robot = tmp_path / "box.urdf.xacro"
+    robot.write_text(
+        '<robot name="box" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg name="side" default="1"/><link name="b">'
+        '<visual><geometry><box size="$(arg side) 1 1"/></geometry></visual></link></robot>'
+    )
+    bag = tmp_path / "run"
+    with coframe.bags.Writer(bag) as writer:
+        moment = coframe.Buffer()
+        moment.set("map", "b", coframe.Transform(), 1_700_000_000_000_000_000)
+        writer.write(writer.add_topic("/tf", "tf2_msgs/msg/TFMessage"), moment.encode(static=False), received=1)
+    process, url = start("view", str(bag), "--robot", str(robot), "side:=2.5", "--no-browser", "--port", "0")
+    try:
+        tab = open_tab(type("Viewer", (), {"url": url}))
+        assert tab.wait("robot")["links"][0]["visuals"][0]["size"] == [2.5, 1.0, 1.0]
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=20)
+    for wrong, reason in ((["side:=1"], "can only be used with --robot"), ([str(bag), "x"], "NAME:=VALUE")):
+        done = subprocess.run([*COMMAND, "view", *wrong], capture_output=True, text=True, check=False)
+        assert done.returncode == 2
+        assert reason in done.stderr

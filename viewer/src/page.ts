@@ -16,6 +16,7 @@ import { Inspector } from "./panels/inspector";
 import { JointsPanel } from "./panels/joints";
 import { marksOf } from "./model/marks";
 import { Forest, Model } from "./model/model";
+import { FileOpener } from "./panels/open_file";
 import { Overlay } from "./panels/overlay";
 import { PartsPanel } from "./panels/parts";
 import { Panel } from "./panels/side_panel";
@@ -61,6 +62,11 @@ export function showPage(source: MessageSource): void {
   panel.setAvailable("scene", false);
   model.on("findings", ({ findings }) =>
     panel.setTitle("findings", findings.length ? `Findings ${findings.length}` : "Findings"),
+  );
+  const opener = new FileOpener(
+    model,
+    (data) => source.sendBytes(data),
+    (file) => void rviz.open(file),
   );
   const timeline = new Timeline(byId("timeline"), model);
   const dock = new DockLauncher(byId("dock"), model, async () => {
@@ -114,6 +120,7 @@ export function showPage(source: MessageSource): void {
       toggleTheme: () => theme.toggleDark(),
       toggleDistinct: () => theme.toggleDistinct(),
       help: () => shortcuts.show(),
+      open: () => opener.show(),
       togglePanel: () => panel.toggle(),
       saveImage: () => void saveImage(view, model),
       saveReplay: () => replays.open(),
@@ -187,6 +194,7 @@ export function showPage(source: MessageSource): void {
       case "timeline":
       case "published":
       case "replay":
+      case "upload":
       case "saved":
       case "curve":
       case "inspection":

@@ -67,6 +67,7 @@ no_browser_option = click.option("--no-browser", is_flag=True, help="Print the a
     shell_complete=complete_recordings,
     help="Recording to read; omit it, or pass 'live', for the live ROS graph.",
 )
+@argument("xacro", metavar="[NAME:=VALUE...]", nargs=-1, help="Xacro arguments of the file of --robot.")
 @click.option(
     "--display-config", "-d", "rviz", metavar="FILE", type=PATH, help="Configuration file (.rviz) of RViz 2 or RViz 1."
 )
@@ -112,6 +113,7 @@ no_browser_option = click.option("--no-browser", is_flag=True, help="Print the a
 @recorded_listener_options
 def view(
     bag: str,
+    xacro: tuple[str, ...],
     rviz: Path | None,
     fixed: str,
     port: int | None,
@@ -133,6 +135,7 @@ def view(
 
     Example: coframe view run.mcap -d lab.rviz
     """
+    bag, arguments = _xacro_arguments(bag, xacro, robot)
     live = bag == "live"
     replay = {"start": start, "stop": stop, "rate": rate}
     if output is not None:
@@ -144,6 +147,7 @@ def view(
             fail(f"--output {output}: unknown suffix {output.suffix!r}. Suffix: .html", code=2)
         choice = TransformChoice(None, tf_topic, tf_static_topic, prefix, keep)
         look: dict[str, Any] = {"rviz": rviz, "fixed": fixed, "robot": robot, "mesh_roots": mesh_root}
+        look["robot_arguments"] = arguments
         write_replay(as_source(bag), output, choice, **look, start=start, stop=stop, rate=rate)
         return
     if unused := [f"--{name}" for name, value in replay.items() if value is not None]:
@@ -160,6 +164,7 @@ def view(
             port=port,
             rviz=rviz,
             robot=robot,
+            robot_arguments=arguments,
             mesh_roots=mesh_root,
         )
         with viewer:
@@ -179,6 +184,17 @@ def view(
                 viewer.set_source(_read(as_source(bag), choice, progress))
             while True:  # On some platforms Ctrl-C does not interrupt an endless wait.
                 time.sleep(60.0)
+
+
+def _xacro_arguments(bag: str, words: tuple[str, ...], robot: Path | None) -> tuple[str, dict[str, str]]:
+    """Return the recording and the xacro arguments: without a recording, the first argument is one of them."""
+    words, bag = ((bag, *words), "live") if ":=" in bag else (words, bag)
+    for word in words:
+        if ":=" not in word:
+            fail(f"No option or argument {word!r}.", "Write xacro arguments as NAME:=VALUE.", code=2)
+    if words and robot is None:
+        fail(f"{words[0]} can only be used with --robot", code=2)
+    return bag, dict(word.split(":=", 1) for word in words)
 
 
 class _ReadingProgress:

@@ -20,7 +20,7 @@ from coframe.viewer.rviz.config import RvizConfig
 from coframe.viewer.sources.recorded import RecordedSource
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
     from pathlib import Path
 
     from coframe._sources.sources import Readable
@@ -37,6 +37,7 @@ def write_replay(
     rviz: Path | None,
     fixed: str,
     robot: Path | None,
+    robot_arguments: Mapping[str, str],
     mesh_roots: Sequence[Path],
     start: str | None,
     stop: str | None,
@@ -45,7 +46,7 @@ def write_replay(
     """Write the replay atomically."""
     with run_to_completion():
         config = None if rviz is None else RvizConfig.load(rviz)
-        description = None if robot is None else load(robot, packages=list(mesh_roots))
+        description = None if robot is None else load(robot, arguments=robot_arguments, packages=list(mesh_roots))
         meshes = make_mesh_table(robot, mesh_roots)
         with open_recording(bag, choice) as recording:
             check_has_transforms(recording)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 import secrets
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -11,8 +12,10 @@ from typing import TYPE_CHECKING
 
 from coframe.errors import ViewerError
 from coframe.viewer._findings import FindingsWatcher
+from coframe.viewer._uploads import Uploads
 from coframe.viewer.displays.rows import displayable
 from coframe.viewer.panels import Panels
+from coframe.viewer.protocol.server_messages import RecentSource
 from coframe.viewer.replay.page import DEFAULT_SETTINGS, FRAME_TIMEOUT, ReplayRequest, ReplaySettings
 from coframe.viewer.robots.descriptions import ROBOT_DESCRIPTION, RobotDescriptions
 from coframe.viewer.robots.joints import JOINT_STATES, JointPublisher
@@ -41,6 +44,8 @@ STRUCTURE_SHARE = 0.005
 # A float64 is exact up to 2**53 nanoseconds, which is 104 days.
 _MAX_OFFSET = 2**52
 _MAX_PREPARED_REPLAYS = 8
+MAX_RECENT = 8
+"""The number of sources that a page can show again."""
 
 
 class ViewerState:
@@ -53,6 +58,7 @@ class ViewerState:
         robot: A robot that is shown in addition to published ones.
         meshes: The meshes that may be fetched, or None for none.
         joint_states: The topic on which positions of joints are published.
+        can_open: Whether the pages may open files, which then replace the source.
     """
 
     def __init__(
@@ -64,6 +70,7 @@ class ViewerState:
         robot: Robot | None = None,
         meshes: MeshTable | None = None,
         joint_states: str = JOINT_STATES,
+        can_open: bool = False,
     ) -> None:
         self.edition = 0  # Increases when the source or its title changes.
         self.source = source
@@ -73,6 +80,11 @@ class ViewerState:
         self.findings = FindingsWatcher()
         self.panels = Panels(source)
         self.callbacks = CallbackThread()
+        self.can_open = can_open
+        self.uploads = Uploads()
+        self._recent: dict[int, ViewerSource] = {}
+        self._recent_ids = itertools.count(1)
+        self._opened: set[ViewerSource] = set()
         self.nodes, self.widgets = NodeStore(self.callbacks), WidgetStore(self.callbacks)
         self.rviz = rviz.with_fixed_frame(fixed) if rviz is not None and fixed else rviz
         self._joint_states = joint_states
@@ -83,22 +95,61 @@ class ViewerState:
         self.origin = time.time_ns()
         self.executor = ThreadPoolExecutor(2, "coframe-viewer-work")
         self._tools: ToolPublisher | None = None
-        self._open: dict[str, _SharedMessages] = {}
+        self._open: dict[str, _SharedMessages] = {}  # Of the source, by topic.
+        self._users: dict[int, _SharedMessages] = {}  # Also of previous sources, by the identity of their messages.
         self._prepared_replays: dict[str, ReplaySettings] = {}
         self._structure_due = self._topics_due = 0.0
         self.refresh()
 
     def set_source(self, source: ViewerSource) -> None:
         """Show another source. All clients start from scratch."""
+        self._remember(source)
         self._close_tools()
         self.panels.close()
         self.panels = Panels(source)
         self.source = source
+        self._open = {}  # Clients release the messages of the previous source when they start from scratch.
+        self.descriptions.restart()
         self.scene = Scene(source.buffer, ages=source.mode == "live")
         self.origin = time.time_ns()
         self._structure_due = self._topics_due = 0.0
         self.refresh()
         self.edition += 1
+
+    def _remember(self, source: ViewerSource) -> None:
+        """Keep a source, so that it can be shown again; close the oldest one that the page has opened."""
+        if not self.can_open or source in self._recent.values():
+            return
+        self._recent[next(self._recent_ids)] = source
+        for number, known in list(self._recent.items())[: max(0, len(self._recent) - MAX_RECENT)]:
+            del self._recent[number]
+            if known in self._opened:
+                self._opened.discard(known)
+                known.close()
+
+    def show_opened(self, source: ViewerSource) -> None:
+        """Show a source that a page has opened. The viewer closes it."""
+        self._opened.add(source)
+        self.set_source(source)
+
+    def show_recent(self, number: int) -> None:
+        """Show a source again.
+
+        Raises:
+            ViewerError: It is no longer open.
+        """
+        source = self._recent.get(number)
+        if source is None:
+            raise ViewerError("this source is no longer open", hint="Open its file again.")
+        if source is not self.source:
+            self.set_source(source)
+
+    def recent_sources(self) -> list[RecentSource]:
+        """Return the sources that can be shown again, the newest first."""
+        return [
+            RecentSource(id=number, name=source.title, is_shown=source is self.source)
+            for number, source in reversed(self._recent.items())
+        ]
 
     def set_title(self, title: str) -> None:
         """Change the title of the page."""
@@ -141,17 +192,18 @@ class ViewerState:
             messages = self.source.open(topic)
             if messages is None:
                 return None
-            shared = self._open[topic] = _SharedMessages(messages)
+            shared = self._open[topic] = self._users[id(messages)] = _SharedMessages(messages)
         shared.users += 1
         return shared.messages
 
-    def release(self, topic: str) -> None:
+    def release(self, messages: TopicMessages) -> None:
         """Release what `open` returned."""
-        shared = self._open[topic]
+        shared = self._users[id(messages)]
         shared.users -= 1
         if shared.users == 0:
-            del self._open[topic]
-            shared.messages.close()
+            del self._users[id(messages)]
+            self._open = {topic: one for topic, one in self._open.items() if one is not shared}
+            messages.close()
 
     @contextmanager
     def opened(self, topics: Iterable[str]) -> Iterator[dict[str, TopicMessages]]:
@@ -160,19 +212,23 @@ class ViewerState:
         try:
             yield found
         finally:
-            for topic in found:
-                self.release(topic)
+            for messages in found.values():
+                self.release(messages)
 
     def close(self) -> None:
         """Stop all work and release the resources of disconnected clients."""
         self.callbacks.close()
-        for topic in list(self._open):
-            self._open.pop(topic).messages.close()
+        for shared in self._users.values():
+            shared.messages.close()
+        self._users.clear()
         self.findings.close()
         self.panels.close()
         self.executor.shutdown(wait=True, cancel_futures=True)
         self._close_tools()
         self.descriptions.close()
+        for source in self._opened:
+            source.close()
+        self.uploads.close()
 
     def _close_tools(self) -> None:
         if self._tools is not None:

@@ -28,7 +28,7 @@ from coframe.viewer.sources.source import BufferSource
 from coframe.viewer.sources.transforms import buffer_of_transform
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Mapping
 
     from typing_extensions import Self
 
@@ -208,6 +208,7 @@ def start_viewer(
     fixed: str = "",
     rviz: str | os.PathLike[str] | None = None,
     robot: str | os.PathLike[str] | None = None,
+    robot_arguments: Mapping[str, str] | None = None,
     mesh_roots: Iterable[str | os.PathLike[str]] = (),
     host: str = "127.0.0.1",
     port: int | None = None,
@@ -222,6 +223,7 @@ def start_viewer(
         fixed: The fixed frame; see :func:`show`, also for the other arguments.
         rviz: A configuration file of RViz 2 or RViz 1.
         robot: The URDF or xacro file of a robot.
+        robot_arguments: The values of ``$(arg NAME)`` in a xacro file.
         mesh_roots: Folders below which meshes may be fetched.
         host: The address to listen on.
         port: The TCP port to listen on; see :func:`show`.
@@ -230,7 +232,10 @@ def start_viewer(
         ViewerError: A package is missing, a file cannot be read, or the server cannot listen on the address.
         RobotDescriptionError: The robot description is invalid.
     """
-    return _viewer(lambda: BufferSource(Buffer(), title, mode), fixed, rviz, robot, mesh_roots, host, port)
+    make_source = partial(BufferSource, Buffer(), title, mode)
+    roots = [Path(root) for root in mesh_roots]
+    description = None if robot is None else load(robot, arguments=robot_arguments, packages=roots)
+    return _viewer(make_source, fixed, rviz, description, roots, host, port, can_open=True)
 
 
 def _viewer(
@@ -243,13 +248,21 @@ def _viewer(
     port: int | None,
     joint_states: str = JOINT_STATES,
     inline: Inline | None = None,
+    *,
+    can_open: bool = False,
 ) -> Viewer:
     config = None if rviz is None else RvizConfig.load(Path(rviz))
     roots = [Path(root) for root in mesh_roots]
     description = load(robot, packages=roots) if isinstance(robot, str | os.PathLike) else robot
     meshes = make_mesh_table(None if description is None else description.path, roots)
     state = ViewerState(
-        make_source(), fixed=fixed, rviz=config, robot=description, meshes=meshes, joint_states=joint_states
+        make_source(),
+        fixed=fixed,
+        rviz=config,
+        robot=description,
+        meshes=meshes,
+        joint_states=joint_states,
+        can_open=can_open,
     )
     export = partial(export_replay, meshes=meshes, rviz=config, robot=description, fixed=fixed, nodes=state.nodes.all)
     return Viewer(state, export, host=host, port=port, inline=inline)

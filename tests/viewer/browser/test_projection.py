@@ -91,4 +91,7 @@ def test_the_scene_is_projected_as_by_opencv(graph, view, open_page, tmp_path):
     empty = page.evaluate("document.querySelector('.projection').getContext('2d').getImageData(2, 2, 1, 1).data[3]")
     assert empty == 0
     by_topic["/cam/camera_info"].distortion_model = "magic"
-    page.wait(lambda: (projected(), "'magic' with 5 coefficients is not supported" in page.text("#images figcaption"))[1], "the reason")
+    page.wait(
+        lambda: (projected(), "'magic' with 5 coefficients is not supported" in page.text("#images figcaption"))[1],
+        "the reason",
+    )

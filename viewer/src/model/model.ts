@@ -34,6 +34,7 @@ import type {
   Timeline,
   DisplayTopic,
   TreeFrame,
+  UploadProgress,
   Widget,
 } from "../protocol/messages";
 
@@ -58,6 +59,7 @@ export interface ModelEvents {
   page: CodePage;
   published: PublishResult;
   replay: ReplayPrepared;
+  upload: UploadProgress;
   saved: RvizSaved;
   curve: CurveStatus;
   curves: Curves;

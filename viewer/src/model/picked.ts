@@ -3,7 +3,7 @@
 
 import type { Vector } from "../protocol/messages";
 
-/** The message of a display that contains a part, about which the server knows more. */
+/** The message of a display that contains a part, of which the server has more values. */
 export interface PickedSource {
   /** The display. */
   id: number;

@@ -12,6 +12,7 @@ export interface BarActions {
   toggleTheme(): void;
   toggleDistinct(): void;
   help(): void;
+  open(): void;
   togglePanel(): void;
   saveImage(): void;
   saveReplay(): void;
@@ -50,6 +51,7 @@ export class Bar {
       h("span", { class: "spacer" }),
       h("label", {}, h("span", {}, "Fixed Frame"), this.fixed),
       this.pill,
+      ...(live ? [iconButton("folder", "Open a file", actions.open)] : []),
       ...(actions.panes.length ? [menu("chart", "Panels", actions.panes)] : []),
       menu("download", "Export", [
         ["Image (PNG)", "The scene as it is displayed", actions.saveImage],

@@ -18,7 +18,7 @@ export class PartsPanel {
   private chosen: PickedPart | null = null;
   private answer: PartDetails | null = null;
 
-  /** In a replay, which is not `live`, no server knows more about a part. */
+  /** In a replay, which is not `live`, no server has more values of a part. */
   constructor(
     private readonly root: HTMLElement,
     private readonly model: Model,

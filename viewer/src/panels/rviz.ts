@@ -90,7 +90,12 @@ export class RvizPanel {
   private async load(): Promise<void> {
     const file = this.file.files?.[0];
     if (!file) return;
+    await this.open(file);
     this.file.value = "";
+  }
+
+  /** Opens an .rviz file. */
+  async open(file: File): Promise<void> {
     if (file.size > MAX_FILE_SIZE) {
       toast(`Cannot open ${file.name}: it has ${file.size} bytes, and .rviz files may have at most ${MAX_FILE_SIZE}.`);
       return;

@@ -131,7 +131,10 @@ export class Timeline {
     this.message = null;
     const recorded = hello?.mode === "recording" || hello?.mode === "replay";
     this.live.hidden = recorded;
-    if (recorded && this.model.clock.live) this.model.setClock({ live: false, playing: false }, hello?.span?.[0] ?? 0);
+    const [span, at] = [hello?.span, this.model.playhead];
+    const isOutside = !span || !(at >= span[0] && at <= span[1]);
+    if (recorded && (this.model.clock.live || isOutside))
+      this.model.setClock({ live: false, playing: false }, hello?.span?.[0] ?? 0);
     else if (!this.model.clock.live) this.model.sendClock();
   }
 

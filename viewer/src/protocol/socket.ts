@@ -44,6 +44,10 @@ export class SocketSource implements MessageSource {
     else this.socket.send(text);
   }
 
+  sendBytes(data: ArrayBuffer): void {
+    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(data);
+  }
+
   private open(): void {
     const socket = new WebSocket(this.url);
     socket.binaryType = "arraybuffer";

@@ -16,4 +16,6 @@ export interface MessageSource {
   readonly live: boolean;
   start(listener: <K extends keyof SourceEvents>(event: K, value: SourceEvents[K]) => void): void;
   send(message: ClientMessage): void;
+  /** Sends the next bytes of files that are opened. */
+  sendBytes(data: ArrayBuffer): void;
 }

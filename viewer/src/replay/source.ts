@@ -128,6 +128,8 @@ export class ReplaySource implements MessageSource {
         automatic: true,
       })),
       can_publish: false,
+      can_open: false,
+      recent: [],
     };
     listener("text", hello);
     listener("text", {
@@ -147,6 +149,9 @@ export class ReplaySource implements MessageSource {
     this.sendFrames();
     setInterval(() => this.advance(), FRAME_INTERVAL_MS);
   }
+
+  /** A replay opens no files. */
+  sendBytes(): void {}
 
   send(message: ClientMessage): void {
     switch (message.type) {

@@ -86,6 +86,8 @@ class HelloFeed(_Feed):
                 rviz=None if client.rviz is None else client.rviz.description(),
                 topics=viewer.topics,
                 can_publish=viewer.can_publish,
+                can_open=viewer.can_open,
+                recent=viewer.recent_sources(),
             )
         )
 

@@ -91,7 +91,7 @@ class ClientPanels:
     def inspect(self, topic: str) -> None:
         """Inspect a topic instead of the previous one, or "" for none."""
         if self.inspected is not None:
-            self._viewer.release(self.topic)
+            self._viewer.release(self.inspected)
         self.topic, self.inspected, self.problem = topic, None, ""
         self.serial += 1
         self.open_inspected()

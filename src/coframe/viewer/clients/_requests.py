@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from coframe.doctor.codes import codes, page
 from coframe.errors import ViewerError, WireError
 from coframe.viewer.clients._panel_requests import PANEL_HANDLERS
+from coframe.viewer.clients._upload_requests import UPLOAD_HANDLERS
 from coframe.viewer.displays import Options
 from coframe.viewer.displays.part_values import part_values
 from coframe.viewer.protocol import client_messages
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
 
     from coframe.viewer.clients._state import ClientState
+    from coframe.viewer.clients._upload_requests import UploadedPart
     from coframe.viewer.protocol.client_messages import ClientMessage
     from coframe.viewer.protocol.server_messages import Relation, ServerMessage
     from coframe.viewer.tools.publisher import ToolPublisher
@@ -43,7 +45,7 @@ __all__ = ["handle"]
 T = TypeVar("T")
 
 
-async def handle(client: ClientState, request: ClientMessage) -> ServerMessage | None:
+async def handle(client: ClientState, request: ClientMessage | UploadedPart) -> ServerMessage | None:
     """Execute a request, and return the answer, or None if the request has none.
 
     Raises:
@@ -286,4 +288,5 @@ _HANDLERS: dict[type, Callable[[ClientState, Any], Awaitable[ServerMessage | Non
     client_messages.Unsubscribe: _unsubscribe,
     client_messages.UseWidget: _use_widget,
     **PANEL_HANDLERS,
+    **UPLOAD_HANDLERS,
 }

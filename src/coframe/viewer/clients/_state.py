@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from coframe.viewer._state import ViewerState
+    from coframe.viewer._uploads import Upload
     from coframe.viewer.displays import Options
     from coframe.viewer.robots.joints import JointPublisher
 
@@ -65,6 +66,8 @@ class ClientState:
         panels: The contents of the panels.
         nodes: The nodes that were sent.
         widgets: The widgets that were sent.
+        upload: The files that the client is sending, or None.
+        starts_together: Whether several recordings of the upload begin at the same time.
     """
 
     def __init__(self, viewer: ViewerState) -> None:
@@ -78,6 +81,8 @@ class ClientState:
         self.subscriptions: dict[int, Subscription] = {}
         self.panels = ClientPanels(viewer)
         self.nodes, self.widgets = SentRecords(), SentRecords()
+        self.upload: Upload | None = None
+        self.starts_together = False
         self._joints: dict[int, JointPublisher] = {}
 
     @property
@@ -162,7 +167,10 @@ class ClientState:
                 publisher.publish_if_due()
 
     def close(self) -> None:
-        """Close all displays and publishers."""
+        """Close all displays and publishers, and cancel an upload."""
+        if self.upload is not None:
+            self.upload.cancel()
+            self.upload = None
         self.panels.close()
         for number in list(self.subscriptions):
             self.unsubscribe(number)
@@ -180,5 +188,5 @@ class ClientState:
     def _close(self, subscription: Subscription) -> None:
         if subscription.display is not None:
             subscription.display.close()
+            self.viewer.release(subscription.display.messages)
             subscription.display = None
-            self.viewer.release(subscription.topic)

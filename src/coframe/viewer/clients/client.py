@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Protocol
 from coframe.viewer.clients._feeds import FRAMES, HELLO, TOPICS, make_feeds
 from coframe.viewer.clients._requests import handle
 from coframe.viewer.clients._state import ClientState
+from coframe.viewer.clients._upload_requests import UploadedPart
 from coframe.viewer.protocol.client_messages import FrameDrawn
 from coframe.viewer.protocol.encoding import encode
 from coframe.viewer.protocol.requests import BadRequestError, parse_request
@@ -24,10 +25,13 @@ from coframe.viewer.protocol.server_messages import ProblemReport
 
 if TYPE_CHECKING:
     from collections.abc import Hashable
+    from typing import TypeAlias
 
     from coframe.viewer._state import ViewerState
     from coframe.viewer.protocol.client_messages import ClientMessage
     from coframe.viewer.protocol.server_messages import ServerMessage
+
+    _Request: TypeAlias = ClientMessage | UploadedPart | BadRequestError
 
 __all__ = ["Client", "Socket"]
 
@@ -81,13 +85,13 @@ class Client:
         self._feeds = make_feeds(self.state)
         self._sent: dict[Hashable, object] = {}  # The last version of each key.
         self._ready = True
-        self._requests: deque[ClientMessage | BadRequestError] = deque()
+        self._requests: deque[_Request] = deque()
         self._answering: asyncio.Task[None] | None = None
 
     def receive(self, message: str | bytes) -> None:
         """Process a message: a confirmation immediately, everything else in order."""
         try:
-            request: ClientMessage | BadRequestError = parse_request(message)
+            request: _Request = UploadedPart(message) if isinstance(message, bytes) else parse_request(message)
         except BadRequestError as error:
             request = error
         if isinstance(request, FrameDrawn):
@@ -160,7 +164,7 @@ class Client:
             _logger.exception("a client's request failed and the client was disconnected; the others continue")
             self._socket.abort()
 
-    async def _answer(self, request: ClientMessage | BadRequestError) -> None:
+    async def _answer(self, request: _Request) -> None:
         answer: ServerMessage | None
         try:
             if isinstance(request, BadRequestError):

@@ -214,6 +214,36 @@ ReplayRviz = TypedDict("ReplayRviz", {"displays": list[RvizDisplay], "global": J
 
 
 @dataclass(frozen=True)
+class FileToOpen:
+    """The name and the size in bytes of a file."""
+
+    name: str
+    size: Annotated[int, Range(0, 2**53)]
+
+
+@dataclass(frozen=True)
+class OpenFiles:
+    """Begins to send files; their bytes follow as binary messages, each after the answer to the previous one.
+
+    Attributes:
+        files: The files, in the order of their bytes.
+        together: Whether several recordings begin at the same time; otherwise they keep their times.
+    """
+
+    type: ClassVar[str] = "open_files"
+    files: list[FileToOpen]
+    together: bool = False
+
+
+@dataclass(frozen=True)
+class OpenRecent:
+    """Shows a source again that this viewer has shown before."""
+
+    type: ClassVar[str] = "open_recent"
+    id: Id
+
+
+@dataclass(frozen=True)
 class PrepareReplay:
     """Defines the displays and the initial view of a replay."""
 
@@ -358,6 +388,8 @@ ClientMessage: TypeAlias = (
     | PublishStatic
     | LoadRviz
     | SaveRviz
+    | OpenFiles
+    | OpenRecent
     | PrepareReplay
     | SetFrameTimeout
     | SetFrameRate

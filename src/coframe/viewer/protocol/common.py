@@ -25,6 +25,7 @@ Nanoseconds: TypeAlias = Annotated[float, Range(-(2.0**62), 2.0**62)]
 PayloadRows: TypeAlias = tuple[int, int]
 """An offset into the numbers of a drawing, and a number of rows: 7 numbers per pose, 3 per point, 4 per color."""
 
+UploadState: TypeAlias = Literal["receiving", "done", "failed"]
 ViewerMode: TypeAlias = Literal["live", "recording", "buffer", "replay"]
 FrameActivity: TypeAlias = Literal["static", "fresh", "stale", "gone"]
 DisplayState: TypeAlias = Literal["ok", "waiting", "error"]

@@ -20,6 +20,7 @@ from coframe.viewer.protocol.common import (
     Severity,
     ShapeKind,
     Span,
+    UploadState,
     Vector,
     ViewerMode,
     WidgetKind,
@@ -59,12 +60,20 @@ RvizConfiguration = TypedDict(
 """The supported parts of an RViz configuration."""
 
 
+class RecentSource(TypedDict):
+    """A source that the viewer has shown, and whether it is shown now."""
+
+    id: int
+    name: str
+    is_shown: bool
+
+
 class Hello(TypedDict):
     """The first message. It is sent again when the source or the origin changes. The page then starts from scratch.
 
     The page compares ``version`` with its own. ``mode`` is "replay" only inside replay files. ``fixed_is_given`` is
     true if an option or the .rviz file names the fixed frame, so that the page does not use the one of its last
-    session.
+    session. With ``can_open``, the page may open files.
     """
 
     type: Literal["hello"]
@@ -78,6 +87,8 @@ class Hello(TypedDict):
     rviz: RvizConfiguration | None
     topics: list[DisplayTopic]
     can_publish: bool
+    can_open: bool
+    recent: list[RecentSource]
 
 
 class TreeFrame(TypedDict):
@@ -463,6 +474,17 @@ class RvizSaved(TypedDict):
     text: str
 
 
+class UploadProgress(TypedDict):
+    """The answer to ``open_files`` and to each part of the files; ``text`` is the reason if it has failed."""
+
+    type: Literal["upload"]
+    state: UploadState
+    received: int
+    total: int
+    text: str
+    hint: str
+
+
 class ReplayPrepared(TypedDict):
     """The answer to ``replay``: ``/replay?settings=TOKEN&from=&to=&rate=&fixed=`` returns the file."""
 
@@ -571,6 +593,7 @@ ServerMessage: TypeAlias = (
     | NodeGraph
     | Completions
     | RvizSaved
+    | UploadProgress
     | ReplayPrepared
     | PublishResult
     | SceneNode

@@ -23,6 +23,10 @@ if TYPE_CHECKING:
 __all__ = ["ROBOT_DESCRIPTION", "Description", "DescriptionProblem", "RobotDescriptions"]
 
 ROBOT_DESCRIPTION = "/robot_description"
+MAX_ADDED = 8
+"""The number of robots that pages add from files."""
+# Topics and the robot of the command line have smaller numbers.
+_FIRST_ADDED = 1000
 _versions = itertools.count(1)
 
 
@@ -60,6 +64,7 @@ class RobotDescriptions:
         self.known: dict[int, Description] = {}
         self.problems: dict[str, DescriptionProblem] = {}
         self._meshes = meshes
+        self._added = itertools.count()
         self._topics = [_DescriptionTopic(number, topic) for number, topic in enumerate(topics, 1)]
         if robot is not None:
             message = robot_message(robot, 0, str(robot.path or "a file"), None, meshes)
@@ -77,6 +82,20 @@ class RobotDescriptions:
                     self.known[topic.number] = result
                 elif result is not None:
                     self.problems[topic.name] = result
+
+    def add(self, robot: Robot, name: str) -> None:
+        """Show one more robot; it replaces the oldest one if there are too many."""
+        number = _FIRST_ADDED + next(self._added) % MAX_ADDED
+        message = robot_message(robot, number, name, None, self._meshes)
+        self.known[number] = Description(robot, message, next(_versions))
+
+    def restart(self) -> None:
+        """Forget the descriptions of a source that is no longer shown."""
+        self.close()
+        self.problems.clear()
+        self._topics = [_DescriptionTopic(topic.number, topic.name) for topic in self._topics]
+        for topic in self._topics:
+            self.known.pop(topic.number, None)
 
     def close(self) -> None:
         """Close all topics."""
