@@ -137,8 +137,8 @@ def test_xacro_arguments_are_passed_to_the_robot(tmp_path, open_tab):
     pytest.importorskip("xacro", reason="needs xacro")
     robot = tmp_path / "box.urdf.xacro"
     robot.write_text(
-        '<robot name="box" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg name="side" default="1"/><link name="b">'
-        '<visual><geometry><box size="$(arg side) 1 1"/></geometry></visual></link></robot>'
+        '<robot name="box" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg name="side" default="1"/>'
+        '<link name="b"><visual><geometry><box size="$(arg side) 1 1"/></geometry></visual></link></robot>'
     )
     bag = tmp_path / "run"
     with coframe.bags.Writer(bag) as writer:
