@@ -101,6 +101,12 @@ class Behavior(NamedTuple):
 
 
 DEFINITIONS: Final[Mapping[str, Definition]] = {
+    "controller_manager_msgs/msg/ControllerState": Definition(_JAZZY, "`exported_state_interfaces`"),
+    "controller_manager_msgs/msg/HardwareComponentState": Definition(_JAZZY, "`plugin_name`"),
+    "controller_manager_msgs/srv/SwitchController": Definition(
+        _JAZZY, "without `start_controllers`, `stop_controllers` and `start_asap`"
+    ),
+    "nav2_msgs/msg/BehaviorTreeStatusChange": Definition(_JAZZY, "`uid`"),
     "rcl_interfaces/msg/Log": Definition(_JAZZY, "the constants are `uint8`, not `byte`: 10 instead of `b'\\n'`"),
     "rmw_dds_common/msg/Gid": Definition(_JAZZY, "16 bytes instead of 24"),
     "rosbag2_interfaces/msg/ReadSplitEvent": Definition(_JAZZY, "`node_name`"),

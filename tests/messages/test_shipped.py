@@ -17,6 +17,7 @@ import pytest
 from coframe.messages import find, registry
 from coframe.messages.packages import find_shipped
 from coframe.messages.type_hash import type_hash
+from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import Image
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -74,11 +75,18 @@ def test_messages_check_their_fields_as_generated_ones_do() -> None:
 
 def test_packages_that_are_not_part_of_a_distribution() -> None:
     from ackermann_msgs.msg import AckermannDriveStamped
-    from gazebo_msgs.srv import SpawnEntity
+    from controller_manager_msgs.srv import ListControllers, SwitchController
+    from gazebo_msgs.srv import GetJointProperties, SpawnEntity
+    from mavros_msgs.msg import CommandCode, PositionTarget, State
+    from mavros_msgs.srv import CommandLong
+    from moveit_msgs.action import MoveGroup
+    from moveit_msgs.msg import CollisionObject, MoveItErrorCodes
+    from octomap_msgs.msg import Octomap
     from robot_localization.srv import GetState
     from ros_gz_interfaces.msg import Entity, EntityFactory
     from turtlebot3_msgs.msg import SensorState
     from unitree_go.msg import LowState
+    from webots_ros2_msgs.msg import CameraRecognitionObject
 
     assert AckermannDriveStamped().drive.get_fields_and_field_types()["jerk"] == "float"
     # The MD5 sum by which ROS 1 identifies the type, which ROS 1 computes from the same fields.
@@ -92,6 +100,19 @@ def test_packages_that_are_not_part_of_a_distribution() -> None:
     assert (Entity.MODEL, EntityFactory().relative_to) == (2, "world")
     assert SensorState.TORQUE_OFF == 2
     assert len(LowState().motor_state) == 20
+    assert SwitchController.Request().get_fields_and_field_types()["strictness"] == "int32"
+    assert ListControllers.Response().controller == []
+    assert GetJointProperties.Response.PRISMATIC == 2
+    assert (State.MODE_PX4_OFFBOARD, CommandCode.NAV_TAKEOFF, PositionTarget.IGNORE_VX) == ("OFFBOARD", 22, 8)
+    assert CommandLong.Request().get_fields_and_field_types()["command"] == "uint16"
+    goal = MoveGroup.Goal()
+    goal.planning_options.planning_scene_diff.world.collision_objects = [
+        CollisionObject(operation=CollisionObject.MOVE)
+    ]
+    assert deserialize_message(serialize_message(goal), MoveGroup.Goal) == goal
+    assert MoveItErrorCodes.NO_IK_SOLUTION == -31
+    assert Octomap().get_fields_and_field_types()["data"] == "sequence<int8>"
+    assert CameraRecognitionObject().bbox.center.theta == 0.0
 
 
 def test_names_that_do_not_exist_are_import_errors() -> None:

@@ -35,13 +35,9 @@ _PACKAGE = re.compile(r"[a-z](?:_?[a-z0-9])*")
 _INTERFACES = {"unitree_api", "unitree_hg"}
 # Packages that many programs import, and of which no package registry has the definitions.
 _SOURCES = {
-    "controller_manager_msgs": "ros-controls/ros2_control",
-    "mavros_msgs": "mavlink/mavros",
-    "moveit_msgs": "moveit/moveit_msgs",
     "px4_msgs": "PX4/px4_msgs",
     "unitree_api": "unitreerobotics/unitree_ros2",
     "unitree_hg": "unitreerobotics/unitree_ros2",
-    "webots_ros2_msgs": "cyberbotics/webots_ros2",
 }
 _INTERFACE_PACKAGE_NAME = re.compile(r".*_(?:msgs?|srvs?|actions?|interfaces?)")
 

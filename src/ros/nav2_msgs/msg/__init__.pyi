@@ -9,7 +9,7 @@ from typing import Final, TypeAlias
 from coframe.messages._hints import NumberArray, NumberSequence
 from coframe.messages.message import Action, Message, Service
 
-__all__ = ["BehaviorTreeLog", "BehaviorTreeStatusChange", "CollisionMonitorState", "Costmap", "CostmapFilterInfo", "CostmapMetaData", "EdgeCost", "Particle", "ParticleCloud", "Route", "RouteEdge", "RouteNode", "SpeedLimit", "VoxelGrid"]
+__all__ = ["BehaviorTreeLog", "BehaviorTreeStatusChange", "CollisionDetectorState", "CollisionMonitorState", "Costmap", "CostmapFilterInfo", "CostmapMetaData", "CostmapUpdate", "EdgeCost", "MissedWaypoint", "Particle", "ParticleCloud", "Route", "RouteEdge", "RouteNode", "SpeedLimit", "VoxelGrid"]
 
 class BehaviorTreeLog(Message):
     timestamp: builtin_interfaces.msg.Time
@@ -19,9 +19,15 @@ class BehaviorTreeLog(Message):
 class BehaviorTreeStatusChange(Message):
     timestamp: builtin_interfaces.msg.Time
     node_name: str
+    uid: int
     previous_status: str
     current_status: str
-    def __init__(self, *, timestamp: builtin_interfaces.msg.Time = ..., node_name: str = ..., previous_status: str = ..., current_status: str = ...) -> None: ...
+    def __init__(self, *, timestamp: builtin_interfaces.msg.Time = ..., node_name: str = ..., uid: int = ..., previous_status: str = ..., current_status: str = ...) -> None: ...
+
+class CollisionDetectorState(Message):
+    polygons: list[str]
+    detections: list[bool]
+    def __init__(self, *, polygons: list[str] = ..., detections: list[bool] = ...) -> None: ...
 
 class CollisionMonitorState(Message):
     DO_NOTHING: Final = 0
@@ -56,10 +62,25 @@ class CostmapMetaData(Message):
     origin: geometry_msgs.msg.Pose
     def __init__(self, *, map_load_time: builtin_interfaces.msg.Time = ..., update_time: builtin_interfaces.msg.Time = ..., layer: str = ..., resolution: float = ..., size_x: int = ..., size_y: int = ..., origin: geometry_msgs.msg.Pose = ...) -> None: ...
 
+class CostmapUpdate(Message):
+    header: std_msgs.msg.Header
+    x: int
+    y: int
+    size_x: int
+    size_y: int
+    data: NumberSequence[int]
+    def __init__(self, *, header: std_msgs.msg.Header = ..., x: int = ..., y: int = ..., size_x: int = ..., size_y: int = ..., data: Iterable[int] = ...) -> None: ...
+
 class EdgeCost(Message):
     edgeid: int
     cost: float
     def __init__(self, *, edgeid: int = ..., cost: float = ...) -> None: ...
+
+class MissedWaypoint(Message):
+    index: int
+    goal: geometry_msgs.msg.PoseStamped
+    error_code: int
+    def __init__(self, *, index: int = ..., goal: geometry_msgs.msg.PoseStamped = ..., error_code: int = ...) -> None: ...
 
 class Particle(Message):
     pose: geometry_msgs.msg.Pose

@@ -10,7 +10,7 @@ from typing import Final, TypeAlias
 from coframe.messages._hints import NumberArray, NumberSequence
 from coframe.messages.message import Action, Message, Service
 
-__all__ = ["ClearCostmapAroundRobot", "ClearCostmapExceptRegion", "ClearEntireCostmap", "DynamicEdges", "GetCostmap", "IsPathValid", "LoadMap", "ManageLifecycleNodes", "SaveMap", "SetInitialPose", "SetRouteGraph"]
+__all__ = ["ClearCostmapAroundRobot", "ClearCostmapExceptRegion", "ClearEntireCostmap", "DynamicEdges", "GetCost", "GetCostmap", "IsPathValid", "LoadMap", "ManageLifecycleNodes", "ReloadDockDatabase", "SaveMap", "SetInitialPose", "SetRouteGraph"]
 
 class ClearCostmapAroundRobot_Request(Message):
     reset_distance: float
@@ -61,6 +61,21 @@ class DynamicEdges_Response(Message):
 class DynamicEdges(Service):
     Request: TypeAlias = DynamicEdges_Request
     Response: TypeAlias = DynamicEdges_Response
+
+class GetCost_Request(Message):
+    use_footprint: bool
+    x: float
+    y: float
+    theta: float
+    def __init__(self, *, use_footprint: bool = ..., x: float = ..., y: float = ..., theta: float = ...) -> None: ...
+
+class GetCost_Response(Message):
+    cost: float
+    def __init__(self, *, cost: float = ...) -> None: ...
+
+class GetCost(Service):
+    Request: TypeAlias = GetCost_Request
+    Response: TypeAlias = GetCost_Response
 
 class GetCostmap_Request(Message):
     specs: nav2_msgs.msg.CostmapMetaData
@@ -121,6 +136,18 @@ class ManageLifecycleNodes_Response(Message):
 class ManageLifecycleNodes(Service):
     Request: TypeAlias = ManageLifecycleNodes_Request
     Response: TypeAlias = ManageLifecycleNodes_Response
+
+class ReloadDockDatabase_Request(Message):
+    filepath: str
+    def __init__(self, *, filepath: str = ...) -> None: ...
+
+class ReloadDockDatabase_Response(Message):
+    success: bool
+    def __init__(self, *, success: bool = ...) -> None: ...
+
+class ReloadDockDatabase(Service):
+    Request: TypeAlias = ReloadDockDatabase_Request
+    Response: TypeAlias = ReloadDockDatabase_Response
 
 class SaveMap_Request(Message):
     map_topic: str

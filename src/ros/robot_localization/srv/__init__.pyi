@@ -9,7 +9,7 @@ from typing import Final, TypeAlias
 from coframe.messages._hints import NumberArray, NumberSequence
 from coframe.messages.message import Action, Message, Service
 
-__all__ = ["FromLL", "GetState", "SetDatum", "SetPose", "ToLL", "ToggleFilterProcessing"]
+__all__ = ["FromLL", "GetState", "SetDatum", "SetPose", "SetUTMZone", "ToLL", "ToggleFilterProcessing"]
 
 class FromLL_Request(Message):
     ll_point: geographic_msgs.msg.GeoPoint
@@ -58,6 +58,17 @@ class SetPose_Response(Message):
 class SetPose(Service):
     Request: TypeAlias = SetPose_Request
     Response: TypeAlias = SetPose_Response
+
+class SetUTMZone_Request(Message):
+    utm_zone: str
+    def __init__(self, *, utm_zone: str = ...) -> None: ...
+
+class SetUTMZone_Response(Message):
+    def __init__(self) -> None: ...
+
+class SetUTMZone(Service):
+    Request: TypeAlias = SetUTMZone_Request
+    Response: TypeAlias = SetUTMZone_Response
 
 class ToLL_Request(Message):
     map_point: geometry_msgs.msg.Point

@@ -7,7 +7,7 @@ from typing import Final, TypeAlias
 from coframe.messages._hints import NumberArray, NumberSequence
 from coframe.messages.message import Action, Message, Service
 
-__all__ = ["SensorState", "VersionInfo"]
+__all__ = ["SensorState", "Sound", "VersionInfo"]
 
 class SensorState(Message):
     BUMPER_FORWARD: Final = 1
@@ -33,6 +33,16 @@ class SensorState(Message):
     right_encoder: int
     battery: float
     def __init__(self, *, header: std_msgs.msg.Header = ..., bumper: int = ..., cliff: float = ..., sonar: float = ..., illumination: float = ..., led: int = ..., button: int = ..., torque: bool = ..., left_encoder: int = ..., right_encoder: int = ..., battery: float = ...) -> None: ...
+
+class Sound(Message):
+    OFF: Final = 0
+    ON: Final = 1
+    LOW_BATTERY: Final = 2
+    ERROR: Final = 3
+    BUTTON1: Final = 4
+    BUTTON2: Final = 5
+    value: int
+    def __init__(self, *, value: int = ...) -> None: ...
 
 class VersionInfo(Message):
     hardware: str

@@ -1,0 +1,6 @@
+# Written by scripts/generate_messages.py from interfaces/mavros_msgs/srv; do not edit.
+"""Services of mavros_msgs. Each class is created when it is first used."""
+
+from coframe.messages.packages import shipped_exports
+
+__all__, __getattr__, __dir__ = shipped_exports("mavros_msgs", "srv")
