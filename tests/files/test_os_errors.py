@@ -6,6 +6,7 @@ import os
 
 import pytest
 from click.testing import CliRunner
+
 from coframe._files.os_errors import explain, reason
 from coframe._files.regular_files import open_regular
 from coframe.cli.command_line import CommandLine
@@ -13,11 +14,11 @@ from coframe.cli.command_line import CommandLine
 
 def test_the_texts_of_errors(tmp_path):
     with pytest.raises(FileNotFoundError) as raised:
-        open(tmp_path / "a b")
+        (tmp_path / "a b").stat()
     assert reason(raised.value) == os.strerror(errno.ENOENT)
     assert explain(raised.value) == f"{tmp_path / 'a b'}: {os.strerror(errno.ENOENT)}"
     with pytest.raises(OSError, match="directory") as raised:
-        os.replace(tmp_path / "a", tmp_path / "b")
+        (tmp_path / "a").rename(tmp_path / "b")
     assert explain(raised.value).startswith(f"{tmp_path / 'a'}: {tmp_path / 'b'}: ")
     with pytest.raises(OSError, match="folder") as raised:
         open_regular(tmp_path)
