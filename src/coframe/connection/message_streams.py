@@ -163,7 +163,7 @@ class MessageSubscription(Generic[M]):
         """Start the thread of this subscription, unless it runs."""
         with self._lock:
             if self._thread is None:
-                name = f"coframe{self._subscription.topic}"
+                name = f"coframe{any_ros_name(self._subscription.topic)}"
                 self._thread = threading.Thread(target=target, name=name, daemon=True)
                 self._thread.start()
 
