@@ -10,6 +10,7 @@
 #include "bindings/arguments.hpp"
 #include "bindings/bindings.hpp"
 #include "kernels/levels.hpp"
+#include "sensors/depth_codecs.hpp"
 #include "sensors/deskew.hpp"
 #include "sensors/transform.hpp"
 
@@ -130,6 +131,31 @@ nb::tuple py_deskew(BufferObject& buffer, nb::handle target, nb::handle source, 
   return nb::make_tuple(missing.count, missing.first);
 }
 
+bool py_unfilter_png(nb::handle rows, nb::handle pixels, std::size_t row_bytes, std::size_t pixel_bytes) {
+  const Memory filtered(rows, PyBUF_C_CONTIGUOUS), target(pixels, PyBUF_C_CONTIGUOUS | PyBUF_WRITABLE);
+  if (row_bytes == 0 || pixel_bytes == 0 || target.size() % row_bytes != 0) {
+    throw nb::value_error("the size of the pixels must be a multiple of a row");
+  }
+  const std::size_t height = target.size() / row_bytes;
+  if (filtered.size() != height * (row_bytes + 1)) throw nb::value_error("each row must begin with its filter");
+  bool valid = false;
+  without_gil_if(true, [&] {
+    valid = unfilter_png(filtered.data<const std::uint8_t>(), target.data<std::uint8_t>(), height, row_bytes,
+                         pixel_bytes);
+  });
+  return valid;
+}
+
+bool py_decode_rvl(nb::handle words, nb::handle depths) {
+  const Memory compressed(words, PyBUF_C_CONTIGUOUS), target(depths, PyBUF_C_CONTIGUOUS | PyBUF_WRITABLE);
+  bool valid = false;
+  without_gil_if(true, [&] {
+    valid = decode_rvl(compressed.data<const std::uint32_t>(), compressed.size() / 4, target.data<std::uint16_t>(),
+                       target.size() / 2);
+  });
+  return valid;
+}
+
 nb::tuple level_names() {
   nb::list names;
   for (const Kernels* each : all_kernels()) names.append(each->level);
@@ -147,6 +173,10 @@ void define_sensors(nb::module_& module) {
   module.def("deskew_fields", &py_deskew, arg("buffer"), arg("target"), arg("source"), arg("times"),
              arg("result_from_target"), arg("fields"), arg("nan_for_missing"), arg("threads"),
              "Transform points, each at its own time, in place; return how many have no transform, and the first.");
+  module.def("unfilter_png", &py_unfilter_png, arg("rows"), arg("pixels"), arg("row_bytes"), arg("pixel_bytes"),
+             "Undo the filters of PNG rows into the pixels; return whether all filters are known.");
+  module.def("decode_rvl", &py_decode_rvl, arg("words"), arg("depths"),
+             "Decode an RVL depth image of uint16 values; return whether the data is complete.");
 }
 
 }  // namespace coframe::bindings

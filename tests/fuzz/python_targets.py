@@ -82,6 +82,10 @@ class OneMessage:
         """Return the message."""
         return [self.message]
 
+    def after(self, key: int, _last: int) -> list[Any]:
+        """Return the message unless it is known."""
+        return [self.message] if key < self.message.key else []
+
 
 @target
 def displays() -> Callable[[bytes], object]:
@@ -89,6 +93,7 @@ def displays() -> Callable[[bytes], object]:
     from coframe.errors import DecodeError
     from coframe.messages import deserialize, find
     from coframe.viewer.displays import CannotDrawError, Options
+    from coframe.viewer.displays._renderers import Resources
     from coframe.viewer.displays.rows import DISPLAY_OF_TYPE, make_renderer
 
     types = sorted(DISPLAY_OF_TYPE)
@@ -100,7 +105,7 @@ def displays() -> Callable[[bytes], object]:
         number = data[0] % len(classes)
         with contextlib.suppress(DecodeError, CannotDrawError):
             topic = OneMessage(deserialize(data[1:], classes[number]))
-            for drawing in make_renderer(topic, Options(), lambda _name: (None, "no meshes")).draw(topic.message, 0):
+            for drawing in make_renderer(topic, Options(), Resources()).draw(topic.message, 0, 0):
                 drawing.take_data()
 
     return run

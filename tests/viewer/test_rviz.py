@@ -39,7 +39,7 @@ Visualization Manager:
           Name: Tea
           Enabled: true
           Temperature: .nan
-    - Class: nav2_rviz_plugins/ParticleCloud
+    - Class: nav2_rviz_plugins/Swarm
       Name: Particles
       Enabled: true
   Enabled: true
@@ -68,7 +68,7 @@ Visualization Manager:
       Enabled: true
       Marker Topic: /visualization_marker
       Name: Marker
-    - Class: rviz/PointCloud
+    - Class: rviz/OldCloud
       Enabled: true
       Name: Old
   Global Options: {Background Color: 48; 48; 48, Fixed Frame: <Fixed Frame>}
@@ -87,7 +87,7 @@ def test_rviz_2():
     assert received["view"] == {"class": "TopDownOrtho", "options": {"Scale": 12.5}}
     assert received["unknown"] == [
         {"path": "Sensors/Tea", "class": "acme_rviz/Teapot", "name": "Tea"},
-        {"path": "Particles", "class": "nav2_rviz_plugins/ParticleCloud", "name": "Particles"},
+        {"path": "Particles", "class": "nav2_rviz_plugins/Swarm", "name": "Particles"},
     ]
 
 
@@ -99,7 +99,7 @@ def test_rviz_1():
     ]
     assert received["global"]["fixed_frame"] is None
     assert received["view"]["class"] == "Orbit"
-    assert [one["class"] for one in received["unknown"]] == ["rviz/PointCloud"]
+    assert [one["class"] for one in received["unknown"]] == ["rviz/OldCloud"]
 
 
 def test_the_configuration_of_the_lab_is_applied_to_every_tab(shared, view, open_tab):
@@ -148,7 +148,7 @@ def test_saving_preserves_unknown_parts(view, open_tab):
     assert manager["Global Options"] == {"Background Color": "1; 2; 3", "Fixed Frame": "map", "Frame Rate": 30}
     assert manager["Views"]["Current"] == {"Class": "rviz_default_plugins/Orbit", "Scale": 12.5, "Distance": 4.0}
     again = RvizConfig.parse(saved["text"]).description()
-    assert [one["class"] for one in again["unknown"]] == ["acme_rviz/Teapot", "nav2_rviz_plugins/ParticleCloud"]
+    assert [one["class"] for one in again["unknown"]] == ["acme_rviz/Teapot", "nav2_rviz_plugins/Swarm"]
 
     import urllib.request
 

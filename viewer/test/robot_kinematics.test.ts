@@ -7,7 +7,7 @@ import { IDENTITY, type Pose } from "../src/util/math";
 function joint(name: string, parent: string, child: string, other: Partial<RobotJoint>): RobotJoint {
   return {
     ...{ name, parent, child, type: "fixed", origin: [0, 0, 0, 0, 0, 0, 1], axis: [1, 0, 0] },
-    ...{ mimic: null, lower: null, upper: null, value: null },
+    ...{ mimic: null, lower: null, upper: null, effort: null, value: null },
     ...other,
   };
 }

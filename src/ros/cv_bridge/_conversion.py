@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from coframe._process.optional_imports import import_optional
-from cv_bridge._encodings import Encoding, find
+from coframe.sensors.encodings import Encoding, find
 
 Image = NDArray[Any]
 

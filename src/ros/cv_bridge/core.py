@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cv_bridge import _encodings
+from coframe.sensors import encodings
 from cv_bridge._conversion import opencv
 from cv_bridge.boost.cv_bridge_boost import CV_MAT_CNWrap, CV_MAT_DEPTHWrap, cvtColor2, getCvType
 from sensor_msgs.msg import CompressedImage, Image
@@ -36,14 +36,14 @@ class CvBridge:
     """
 
     def __init__(self) -> None:
-        encodings = [
-            _encodings.Encoding(depth, channels, "")
-            for depth in range(len(_encodings.DEPTHS))
+        generic = [
+            encodings.Encoding(depth, channels, "")
+            for depth in range(len(encodings.DEPTHS))
             for channels in _CHANNELS
         ]
-        self.cvtype_to_name = {_encodings.cv_type(encoding): encoding.name for encoding in encodings}
-        self.cvdepth_to_numpy_depth = dict(enumerate(_encodings.DEPTHS))
-        self.numpy_type_to_cvtype = {encoding.dtype: encoding.name[:-2] for encoding in encodings}
+        self.cvtype_to_name = {encodings.cv_type(encoding): encoding.name for encoding in generic}
+        self.cvdepth_to_numpy_depth = dict(enumerate(encodings.DEPTHS))
+        self.numpy_type_to_cvtype = {encoding.dtype: encoding.name[:-2] for encoding in generic}
         self.numpy_type_to_cvtype.update({name: dtype for dtype, name in self.numpy_type_to_cvtype.items()})
 
     def dtype_with_channels_to_cvtype2(self, dtype: np.dtype[Any], n_channels: int) -> str:
@@ -52,10 +52,10 @@ class CvBridge:
         Raises:
             CvBridgeError: Images of OpenCV cannot have values of this type.
         """
-        if dtype.name not in _encodings.DEPTHS:
+        if dtype.name not in encodings.DEPTHS:
             raise CvBridgeError(
                 f"An image message cannot have values of type {dtype.name}. Use astype() to convert them to one of "
-                f"{', '.join(_encodings.DEPTHS)}."
+                f"{', '.join(encodings.DEPTHS)}."
             )
         return f"{self.numpy_type_to_cvtype[dtype.name]}C{n_channels}"
 
@@ -189,7 +189,7 @@ class CvBridge:
         name, channels = self.encoding_to_dtype_with_channels(message.encoding)
         dtype = np.dtype(name).newbyteorder(">" if message.is_bigendian else "<")
         rows, row_size = (
-            _encodings.find(message.encoding).rows(message.height),
+            encodings.find(message.encoding).rows(message.height),
             message.width * channels * dtype.itemsize,
         )
         step, size = message.step, memoryview(message.data).nbytes
@@ -220,7 +220,7 @@ def _is_big_endian(dtype: np.dtype[Any]) -> bool:
 
 def _height(encoding: str, rows: int) -> int:
     """Return the height of an image from the rows of its array, which are more for NV21 and NV24."""
-    return rows * 2 // _encodings.find(encoding).rows(2)
+    return rows * 2 // encodings.find(encoding).rows(2)
 
 
 def _bytes(pixels: Pixels) -> "array[int]":

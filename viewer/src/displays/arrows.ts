@@ -27,12 +27,26 @@ export function arrowGeometry(shape: ArrowShape): THREE.BufferGeometry {
   return arrow;
 }
 
+/** A flat arrow of length 1 along +x, in the plane of x and y. */
+export function flatArrowGeometry(): THREE.BufferGeometry {
+  const outline: [number, number][] = [
+    [0, -0.02],
+    [0.75, -0.02],
+    [0.75, -0.12],
+    [1, 0],
+    [0.75, 0.12],
+    [0.75, 0.02],
+    [0, 0.02],
+  ];
+  return new THREE.ShapeGeometry(new THREE.Shape(outline.map(([x, y]) => new THREE.Vector2(x, y))));
+}
+
 /** One mesh for all poses, which are rows of x, y, z, qx, qy, qz, qw. */
 export function instances(
   geometry: THREE.BufferGeometry,
   material: THREE.Material,
   poses: Float32Array,
-  scale = 1,
+  scale: number | ((i: number) => number) = 1,
 ): THREE.InstancedMesh {
   const count = Math.floor(poses.length / 7);
   const mesh = new THREE.InstancedMesh(geometry, material, count);
@@ -42,7 +56,8 @@ export function instances(
   const size = new THREE.Vector3();
   for (let i = 0; i < count; i++) {
     const row = poses.subarray(i * 7, i * 7 + 7);
-    size.setScalar(row.every(Number.isFinite) ? scale : 0);
+    const own = typeof scale === "number" ? scale : scale(i);
+    size.setScalar(row.every(Number.isFinite) ? own : 0);
     matrix.compose(position.fromArray(row), quaternion.fromArray(row, 3).normalize(), size);
     mesh.setMatrixAt(i, matrix);
   }

@@ -7,13 +7,25 @@ import type { Cloud, DisplayOptions } from "../protocol/messages";
 import type { PickedPart } from "../model/picked";
 import type { Hit } from "../scene/picking";
 import { MessageDisplay } from "./display";
+import { cloudColors } from "./cloud_colors";
 
 const SAMPLES = 4096;
+const MAX_SHADES = 64;
 const VIEWPORT = new THREE.Vector4();
 /** Software rendering takes 2.5 microseconds per point, during which the page blocks. */
 const MAX_POINTS_IN_SOFTWARE = 40_000;
 
-export class CloudDisplay extends MessageDisplay<Cloud, "LaserScan" | "PointCloud2"> {
+export type CloudClass =
+  | "DepthCloud"
+  | "FluidPressure"
+  | "Illuminance"
+  | "LaserScan"
+  | "PointCloud"
+  | "PointCloud2"
+  | "RelativeHumidity"
+  | "Temperature";
+
+export class CloudDisplay extends MessageDisplay<Cloud, CloudClass> {
   override subscription(): DisplayOptions {
     return {
       ...super.subscription(),
@@ -38,10 +50,13 @@ export class CloudDisplay extends MessageDisplay<Cloud, "LaserScan" | "PointClou
   protected override describe(message: Cloud, object: THREE.Object3D): Record<string, unknown> {
     const { range } = ((object as THREE.Points).material as THREE.ShaderMaterial).uniforms;
     const colors = (range as THREE.IUniform<THREE.Vector2>).value.toArray();
+    const shade = cloudColors(object as THREE.Points, this.context.distinct());
     return {
       points: message.count,
       step: message.step,
       colors,
+      style: this.options.choice("Style"),
+      shades: Array.from({ length: Math.min(message.count, MAX_SHADES) }, (_, i) => shade(i)),
       first: Array.from(message.points.subarray(0, 3 * 1024)),
     };
   }
@@ -61,15 +76,24 @@ export class CloudDisplay extends MessageDisplay<Cloud, "LaserScan" | "PointClou
 
   private mode(message: Cloud): "rgb" | "scalar" | "axis" | "flat" {
     const transformer = this.options.choice("Color Transformer");
-    if (transformer === "RGB8" && message.rgba) return "rgb";
+    if (message.rgba) return "rgb";
     if (transformer === "AxisColor") return "axis";
-    if ((transformer === "Intensity" || transformer === "Distance") && message.scalar) return "scalar";
-    return "flat";
+    return transformer !== "FlatColor" && message.scalar ? "scalar" : "flat";
+  }
+
+  /** The range of values that the color scale covers. */
+  private range(mode: string, message: Cloud): [number, number] {
+    const { options } = this;
+    const byIntensity = mode === "scalar" && options.choice("Color Transformer") === "Intensity";
+    if (byIntensity && !options.flag("Autocompute Intensity Bounds"))
+      return [options.number("Min Intensity"), options.number("Max Intensity")];
+    return message.range;
   }
 
   private material(mode: "rgb" | "scalar" | "axis" | "flat", message: Cloud): THREE.ShaderMaterial {
     const alpha = this.options.number("Alpha");
     const style = this.options.choice("Style");
+    const byIntensity = mode === "scalar" && this.options.choice("Color Transformer") === "Intensity";
     const material = new THREE.ShaderMaterial({
       transparent: alpha < 1,
       depthWrite: alpha >= 0.5,
@@ -77,14 +101,19 @@ export class CloudDisplay extends MessageDisplay<Cloud, "LaserScan" | "PointClou
         [`BY_${mode.toUpperCase()}`]: 1,
         ...(this.options.flag("Use Fixed Frame") ? {} : { OWN_AXIS: 1 }),
         ...(style === "Points" ? {} : { IN_METERS: 1 }),
-        ...(style === "Spheres" ? { ROUND: 1 } : {}),
+        ...(style === "Spheres" ? { SOLID: 1, SPHERES: 1 } : {}),
+        ...(style === "Boxes" ? { SOLID: 1, BOXES: 1 } : {}),
+        ...(this.hasRainbow ? {} : { TWO_COLORS: 1 }),
+        ...(this.options.flag("Invert Rainbow") && byIntensity ? { INVERTED: 1 } : {}),
         ...(this.context.distinct() ? { DISTINCT: 1 } : {}),
       },
       uniforms: {
         alpha: { value: alpha },
         flatColor: { value: srgb(this.options.color("Color")) },
         axis: { value: "XYZ".indexOf(this.options.choice("Axis")) },
-        range: { value: new THREE.Vector2(...message.range) },
+        range: { value: new THREE.Vector2(...this.range(mode, message)) },
+        low: { value: srgb(this.options.color("Min Color")) },
+        high: { value: srgb(this.options.color("Max Color")) },
         size: { value: this.options.number(style === "Points" ? "Size (Pixels)" : "Size (m)") },
         height: { value: 1 },
       },
@@ -99,8 +128,21 @@ export class CloudDisplay extends MessageDisplay<Cloud, "LaserScan" | "PointClou
     return material;
   }
 
+  /** Whether values have the colors of the rainbow, and not those between two colors. */
+  private get hasRainbow(): boolean {
+    return this.options.choice("Color Transformer") !== "Intensity" || this.options.flag("Use rainbow");
+  }
+
   protected override onPose(object: THREE.Object3D, message: Cloud): void {
-    if (this.mode(message) !== "axis" || object.userData.rangeFrame === this.context.model.fixed) return;
+    if (this.mode(message) !== "axis") return;
+    if (!this.options.flag("Autocompute Value Bounds/Value")) {
+      const low = this.options.number("Autocompute Value Bounds/Min Value");
+      const high = this.options.number("Autocompute Value Bounds/Max Value");
+      const { range } = ((object as THREE.Points).material as THREE.ShaderMaterial).uniforms;
+      (range as THREE.IUniform<THREE.Vector2>).value.set(low, high);
+      return;
+    }
+    if (object.userData.rangeFrame === this.context.model.fixed) return;
     object.userData.rangeFrame = this.context.model.fixed;
     object.updateMatrixWorld();
     const pose = this.options.flag("Use Fixed Frame") ? object.matrixWorld : new THREE.Matrix4();
@@ -132,7 +174,7 @@ const VERTEX = `
   uniform float size, height;
   uniform vec2 range;
   uniform int axis;
-  uniform vec3 flatColor;
+  uniform vec3 flatColor, low, high;
   #ifdef BY_RGB
     attribute vec4 rgba;
   #endif
@@ -140,6 +182,12 @@ const VERTEX = `
     attribute float scalar;
   #endif
   varying vec3 color;
+  #ifdef SOLID
+    varying vec3 center;
+    varying mat3 turn;
+    varying vec4 depthRow;
+    varying float spread3;
+  #endif
 
   // Turbo (polynomial fit by A. Mikhailov), or a blue-to-yellow scale for color-blind users.
   vec3 scale(float t) {
@@ -159,6 +207,17 @@ const VERTEX = `
     #endif
   }
 
+  // The smallest value is red, as in RViz, unless the scale is inverted.
+  vec3 paint(float t) {
+    #ifdef TWO_COLORS
+      return mix(low, high, clamp(t, 0.0, 1.0));
+    #elif defined(INVERTED)
+      return scale(t);
+    #else
+      return scale(1.0 - t);
+    #endif
+  }
+
   void main() {
     vec4 world = modelMatrix * vec4(position, 1.0);
     gl_Position = projectionMatrix * viewMatrix * world;
@@ -166,15 +225,22 @@ const VERTEX = `
     #if defined(BY_RGB)
       color = rgba.rgb;
     #elif defined(BY_SCALAR)
-      color = scale((scalar - range.x) / spread);
+      color = paint((scalar - range.x) / spread);
     #elif defined(BY_AXIS) && defined(OWN_AXIS)
-      color = scale((position[axis] - range.x) / spread);
+      color = paint((position[axis] - range.x) / spread);
     #elif defined(BY_AXIS)
-      color = scale((world[axis] - range.x) / spread);
+      color = paint((world[axis] - range.x) / spread);
     #else
       color = flatColor;
     #endif
-    #ifdef IN_METERS
+    #ifdef SOLID
+      center = (viewMatrix * world).xyz;
+      turn = mat3(viewMatrix) * mat3(modelMatrix);
+      depthRow = vec4(projectionMatrix[2][2], projectionMatrix[3][2], projectionMatrix[2][3], projectionMatrix[3][3]);
+      // A corner of a box is this far from its center; a perspective enlarges it a little.
+      spread3 = 1.9 * size;
+      gl_PointSize = max(1.5, 0.5 * spread3 * height * projectionMatrix[1][1] / max(gl_Position.w, 1e-3));
+    #elif defined(IN_METERS)
       gl_PointSize = max(1.5, 0.5 * size * height * projectionMatrix[1][1] / max(gl_Position.w, 1e-3));
     #else
       gl_PointSize = size * height;
@@ -182,11 +248,41 @@ const VERTEX = `
   }`;
 
 const FRAGMENT = `
-  uniform float alpha;
+  uniform float alpha, size;
   varying vec3 color;
+  #ifdef SOLID
+    varying vec3 center;
+    varying mat3 turn;
+    varying vec4 depthRow;
+    varying float spread3;
+  #endif
   void main() {
-    #ifdef ROUND
-      if (length(gl_PointCoord - 0.5) > 0.5) discard;
+    #ifdef SOLID
+      // The ray through this pixel, in the coordinates of the camera.
+      vec3 pixel = center + vec3(gl_PointCoord.x - 0.5, 0.5 - gl_PointCoord.y, 0.0) * spread3;
+      vec3 from = isOrthographic ? vec3(pixel.xy, 0.0) : vec3(0.0);
+      vec3 ray = isOrthographic ? vec3(0.0, 0.0, -1.0) : normalize(pixel);
+      vec3 start = from - center;
+      #ifdef BOXES
+        vec3 o = start * turn;
+        vec3 d = ray * turn;
+        vec3 inverse = 1.0 / (abs(d) + 1e-9) * (step(0.0, d) * 2.0 - 1.0);
+        vec3 entry = -o * inverse - abs(inverse) * 0.5 * size;
+        vec3 exit = -o * inverse + abs(inverse) * 0.5 * size;
+        float at = max(max(entry.x, entry.y), entry.z);
+        if (at > min(min(exit.x, exit.y), exit.z)) discard;
+        vec3 normal = turn * (-sign(d) * step(entry.yzx, entry.xyz) * step(entry.zxy, entry.xyz));
+      #else
+        float along = dot(start, ray);
+        float under = along * along - dot(start, start) + 0.25 * size * size;
+        if (under < 0.0) discard;
+        float at = -along - sqrt(under);
+        vec3 normal = normalize(start + at * ray);
+      #endif
+      float z = from.z + at * ray.z;
+      gl_FragDepth = 0.5 + 0.5 * (depthRow.x * z + depthRow.y) / (depthRow.z * z + depthRow.w);
+      gl_FragColor = vec4(color * (0.55 + 0.45 * abs(dot(normal, ray))), alpha);
+    #else
+      gl_FragColor = vec4(color, alpha);
     #endif
-    gl_FragColor = vec4(color, alpha);
   }`;

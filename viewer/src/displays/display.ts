@@ -122,7 +122,7 @@ export abstract class MessageDisplay<
 
   /** How the server prepares the messages. */
   subscription(): DisplayOptions {
-    return this.options.subscription();
+    return { ...this.options.subscription(), display: this.kind };
   }
 
   receive(message: DisplayMessage): void {

@@ -4,14 +4,25 @@
 import * as THREE from "three";
 import { byId, h, setText, shorten } from "../util/dom";
 import type { FramePoses } from "../scene/frame_poses";
-import { ImageFormat, type DisplayMessage, type Image, type FrameUpdate } from "../protocol/messages";
+import {
+  ImageFormat,
+  type DisplayMessage,
+  type DisplayOptions,
+  type Image,
+  type FrameUpdate,
+} from "../protocol/messages";
 import { firstCamera, imageSize, isRectifiedTopic, projection } from "../util/camera_model";
 import { CameraDisplay } from "./camera_info";
+import { isRectangles } from "./boxes";
 import { MessageDisplay, type Context, type Display, type DisplayConfig } from "./display";
 import { ImageOverlay } from "./image_overlay";
+import { ImageZoom } from "./image_zoom";
+import { RangeFilter, rangeOf, toColors, valueAt, type Range } from "./pixel_window";
 import { cameraTopicOf, contentOf, isFrameAt } from "./projected_content";
 
 const AUTO = "By topic";
+/** The server sends images with more pixels thinned. */
+const MAX_PIXELS = 1 << 25;
 
 /** Projections above an image are drawn at most this often. */
 const PROJECTION_INTERVAL_MS = 100;
@@ -20,7 +31,22 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
   private readonly canvas = h("canvas", { role: "img" });
   private readonly caption = h("figcaption");
   private readonly overlay = new ImageOverlay();
-  private readonly picture = h("div", { class: "picture" }, this.canvas);
+  /** The detected objects above the image. */
+  private readonly marks = h("canvas", { class: "projection", aria: { hidden: "true" } });
+  private readonly layers = h("div", { class: "layers" }, this.canvas, this.marks);
+  private readonly picture = h("div", { class: "picture" }, this.layers);
+  private readonly zoom = new ImageZoom(this.picture, this.layers, () => this.updateCaption());
+  private readonly ranges = new RangeFilter();
+  private range: Range = [0, 1];
+  private normalized: Range = [0, 1];
+  private shown: Image | null = null;
+  /** The name of the image's frame; null if the tree does not contain it. */
+  private frame: string | null = null;
+  private rectangles = 0;
+  /** What the pointer is at. */
+  private pointed = "";
+  /** Whether no other image is shown, so that this one has its full resolution. */
+  alone = false;
   private readonly figure = h("figure", { hidden: true }, this.picture, this.caption);
   private projectedAt = 0;
   private problem = "";
@@ -31,6 +57,12 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
     super(id, config, context);
     this.canvas.setAttribute("aria-label", `Image of ${config.topic ?? config.name}`);
     byId("images").append(this.figure);
+    this.picture.addEventListener("pointermove", (event) => this.point(event));
+    this.picture.addEventListener("pointerleave", () => this.point(null));
+  }
+
+  override subscription(): DisplayOptions {
+    return { ...super.subscription(), ...(this.alone ? { max_pixels: MAX_PIXELS } : {}) };
   }
 
   protected build(): THREE.Object3D {
@@ -40,9 +72,10 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
   override restyle(): void {
     super.restyle();
     this.figure.style.width = `${this.options.number("Width")}px`;
-    setText(this.caption, shorten(this.config.topic ?? this.config.name, 60));
+    this.updateCaption();
     this.projectedAt = 0;
-    if (this.projects) this.picture.append(this.overlay.canvas);
+    if (this.shown?.values) void this.paint(this.shown);
+    if (this.projects) this.layers.append(this.overlay.canvas);
     else this.overlay.canvas.remove();
   }
 
@@ -53,6 +86,8 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
 
   override setPoses(framePoses: FramePoses, update: FrameUpdate): void {
     super.setPoses(framePoses, update);
+    const own = update.displays.find(({ id }) => id === this.id);
+    this.frame = own && own.frame >= 0 ? this.context.model.forest.name(own.frame) : null;
     if ([...this.drawn.values()].some(({ object }) => object.visible)) return;
     this.figure.hidden = true;
     this.painted = -1;
@@ -86,7 +121,57 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
     this.projectedAt = now;
     this.problem = this.tryToProject(displays, framePoses, axisLength);
     if (this.problem) this.overlay.clear();
-    setText(this.caption, shorten(this.config.topic ?? this.config.name, 60) + (this.problem && `: ${this.problem}`));
+    this.updateCaption();
+  }
+
+  /** Draws the detected objects of this image's frame, after the poses of all displays are set. */
+  markDetections(displays: readonly Display[]): void {
+    const { marks, canvas, shown } = this;
+    this.rectangles = 0;
+    const found = this.options.flag("Project Detections")
+      ? displays.filter(isRectangles).filter(({ config }) => config.enabled)
+      : [];
+    const fitting = found.filter((display) => this.frame === null || display.newest()?.frame === this.frame);
+    if (!shown || this.figure.hidden || fitting.length === 0) {
+      if (marks.width > 0) marks.width = 0;
+      return;
+    }
+    [marks.width, marks.height] = [canvas.width, canvas.height];
+    const context = marks.getContext("2d");
+    if (!context) return;
+    context.scale(1 / shown.step, 1 / shown.step);
+    const pixel = (canvas.width * shown.step) / Math.max(1, canvas.clientWidth * this.zoom.factor);
+    for (const display of fitting) this.rectangles += display.draw(context, pixel);
+  }
+
+  /** Shows the pixel under the pointer, in pixels of the full image. */
+  private point(event: PointerEvent | null): void {
+    const { canvas, shown } = this;
+    const bounds = canvas.getBoundingClientRect();
+    const [x, y] = event
+      ? [event.clientX - bounds.left, event.clientY - bounds.top].map((at, k) =>
+          Math.floor((at / (k ? bounds.height : bounds.width)) * (k ? canvas.height : canvas.width)),
+        )
+      : [-1, -1];
+    const inside =
+      shown && x !== undefined && y !== undefined && x >= 0 && y >= 0 && x < canvas.width && y < canvas.height;
+    this.pointed = inside
+      ? `(${x * shown.step}, ${y * shown.step}): ${valueAt(shown, x, y) ?? this.painted8(x, y)}`
+      : "";
+    this.updateCaption();
+  }
+
+  /** The color of a pixel that the browser has decoded. */
+  private painted8(x: number, y: number): string {
+    const pixel = this.canvas.getContext("2d")?.getImageData(x, y, 1, 1).data;
+    return pixel ? pixel.slice(0, 3).join(" ") : "";
+  }
+
+  private updateCaption(): void {
+    const zoomed = this.zoom.factor > 1 ? `${Math.round(this.zoom.factor * 100)} %` : "";
+    const range = this.shown?.values ? `${short(this.range[0])} to ${short(this.range[1])}` : "";
+    const name = shorten(this.config.topic ?? this.config.name, 60) + (this.problem && `: ${this.problem}`);
+    setText(this.caption, [name, this.pointed || range, zoomed].filter(Boolean).join(" · "));
   }
 
   private tryToProject(displays: readonly Display[], framePoses: FramePoses, axisLength: number): string {
@@ -108,9 +193,10 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
       clouds: options.flag("Project Clouds"),
       shapes: options.flag("Project Shapes"),
     });
+    const far = options.number("Far Plane Distance");
     const { palette, distinct } = this.context;
     this.overlay.draw(
-      project,
+      (x, y, z) => (z > far ? null : project(x, y, z)),
       camera.pose,
       imageSize(camera.intrinsics),
       shown,
@@ -137,6 +223,11 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
       width: message.width,
       height: message.height,
       painted: !this.figure.hidden,
+      step: message.step,
+      range: message.values ? this.range : null,
+      value: valueAt(message, message.width >> 1, message.height >> 1),
+      rectangles: this.rectangles,
+      zoom: this.zoom.factor,
       projected: this.overlay.projected,
     };
   }
@@ -144,29 +235,36 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
   private async paint(message: Image): Promise<void> {
     const { canvas } = this;
     try {
-      const image = await decodeImage(message);
+      const image = await this.decodeImage(message);
       if (message.sequence !== this.painted) return; // A newer message has arrived.
+      this.shown = message;
       [canvas.width, canvas.height] = [image.width, image.height];
       const context = canvas.getContext("2d");
       if (image instanceof ImageData) context?.putImageData(image, 0, 0);
       else context?.drawImage(image, 0, 0);
       this.figure.hidden = false;
+      this.updateCaption();
     } catch {
       this.figure.hidden = true;
       this.status = { state: "error", text: "The browser cannot decode the image." };
     }
   }
+
+  private async decodeImage(message: Image): Promise<ImageData | ImageBitmap> {
+    const { format, data, values } = message;
+    if (format === ImageFormat.jpeg || format === ImageFormat.png) {
+      const type = format === ImageFormat.jpeg ? "image/jpeg" : "image/png";
+      return createImageBitmap(new Blob([data], { type }));
+    }
+    const { options } = this;
+    if (values && message !== this.shown)
+      this.normalized = this.ranges.next(rangeOf(values), options.number("Median window"));
+    const given: Range = [options.number("Min Value"), options.number("Max Value")];
+    this.range = options.flag("Normalize Range") ? this.normalized : given;
+    return toColors(message, this.range);
+  }
 }
 
-async function decodeImage({ format, width, height, data }: Image): Promise<ImageData | ImageBitmap> {
-  if (format === ImageFormat.jpeg || format === ImageFormat.png) {
-    const type = format === ImageFormat.jpeg ? "image/jpeg" : "image/png";
-    return createImageBitmap(new Blob([data], { type }));
-  }
-  const pixels = new ImageData(width, height);
-  const channels = format === ImageFormat.gray ? 1 : 3;
-  for (let i = 0; i < width * height; i++)
-    for (let k = 0; k < 4; k++)
-      pixels.data[i * 4 + k] = k === 3 ? 255 : (data[i * channels + (channels === 1 ? 0 : k)] as number);
-  return pixels;
+function short(value: number): string {
+  return String(Number(value.toPrecision(4)));
 }

@@ -3,9 +3,9 @@
 
 import * as THREE from "three";
 import type { Project } from "../util/camera_model";
-import { css, scaleColor } from "../util/color_scale";
 import { h, shorten } from "../util/dom";
 import type { Palette } from "../util/theme";
+import { cloudColors } from "./cloud_colors";
 
 /** What is drawn; all poses are in the scene. */
 export interface OverlayContent {
@@ -183,29 +183,6 @@ export class ImageOverlay {
     const point = this.point.set(x, y, z).applyMatrix4(inCamera);
     return this.project(point.x, point.y, point.z);
   }
-}
-
-/** The colors of a cloud's points, from the attributes and uniforms of its shader. */
-function cloudColors(cloud: THREE.Points, distinct: boolean): (i: number) => string {
-  const { geometry } = cloud;
-  const { uniforms, defines } = cloud.material as THREE.ShaderMaterial;
-  const value = <T>(name: string): T | undefined => uniforms[name]?.value as T | undefined;
-  const [rgba, scalar] = [geometry.getAttribute("rgba"), geometry.getAttribute("scalar")];
-  if (rgba) return (i) => css([rgba.getX(i), rgba.getY(i), rgba.getZ(i)]);
-  const range = value<THREE.Vector2>("range") ?? new THREE.Vector2(0, 1);
-  const spread = Math.max(range.y - range.x, 1e-6);
-  const scaled = (found: number): string => scaleColor((found - range.x) / spread, distinct);
-  if (scalar) return (i) => scaled(scalar.getX(i));
-  const flat = value<THREE.Vector3>("flatColor")?.toArray() ?? [1, 1, 1];
-  if (!defines || !("BY_AXIS" in defines)) {
-    const color = css(flat);
-    return () => color;
-  }
-  const axis = value<number>("axis") ?? 2;
-  const pose = "OWN_AXIS" in defines ? new THREE.Matrix4() : cloud.matrixWorld;
-  const positions = geometry.getAttribute("position");
-  const point = new THREE.Vector3();
-  return (i) => scaled(point.fromBufferAttribute(positions, i).applyMatrix4(pose).getComponent(axis));
 }
 
 function colorOf(object: THREE.Object3D): string {

@@ -61,11 +61,13 @@ export class Displays {
     });
     view.onPoses((framePoses, update) => {
       for (const display of this.list) if (display.config.enabled) display.setPoses(framePoses, update);
-      for (const display of this.list)
-        if (display instanceof ImageDisplay && display.config.enabled && display.projects) {
-          this.showCamera(display.cameraTopic);
-          display.project(this.list, framePoses, AXIS_M * view.tf.scale);
-        }
+      for (const display of this.list) {
+        if (!(display instanceof ImageDisplay) || !display.config.enabled) continue;
+        display.markDetections(this.list);
+        if (!display.projects) continue;
+        this.showCamera(display.cameraTopic);
+        display.project(this.list, framePoses, AXIS_M * view.tf.scale);
+      }
     });
     view.addBounds(() => {
       const box = new THREE.Box3();
@@ -254,6 +256,7 @@ export class Displays {
     if (!kind) return null;
     const own = { ...config, options: { ...config.options } };
     const display = new MAKERS[kind](this.nextId++, own, this.context, this.meshes);
+    if (display instanceof ImageDisplay) display.alone = !this.list.some((other) => other instanceof ImageDisplay);
     if (display instanceof MessageDisplay && !config.topic)
       display.status = { state: "waiting", text: "No topic selected" };
     this.list.push(display);
@@ -299,10 +302,21 @@ export class Displays {
   }
 
   private changed(): void {
+    this.chooseResolutions();
     if (!this.automatic) remember("displays", this.save());
     this.applyTf();
     this.view.refresh();
     this.notify();
+  }
+
+  /** A single image has its full resolution. */
+  private chooseResolutions(): void {
+    const images = this.list.filter((display) => display instanceof ImageDisplay);
+    const shown = images.filter(({ config }) => config.enabled && config.topic);
+    for (const image of shown) {
+      image.alone = shown.length === 1;
+      if (this.subscriptions.has(image.id)) this.resubscribeIfNeeded(image);
+    }
   }
 
   /** Applies the options of the TF display to the view. */

@@ -2,7 +2,7 @@
 /** The Map display: an occupancy grid as a texture. */
 
 import * as THREE from "three";
-import type { Grid } from "../protocol/messages";
+import type { DisplayMessage, Grid } from "../protocol/messages";
 import type { PickedPart } from "../model/picked";
 import type { Hit } from "../scene/picking";
 import { MessageDisplay } from "./display";
@@ -10,6 +10,33 @@ import { MessageDisplay } from "./display";
 const MAX_TEXTURE_SIZE = 8192;
 
 export class MapDisplay extends MessageDisplay<Grid, "Map"> {
+  /** Changes the cells of a grid that was received, for a part of a grid. */
+  override receive(message: DisplayMessage): void {
+    if (message.kind !== "grid_part") {
+      super.receive(message);
+      return;
+    }
+    const entry = this.drawn.get(message.sequence);
+    if (!entry) return;
+    const { width, height, cells } = entry.message;
+    if (message.x + message.width > width || message.y + message.height > height) return;
+    for (let row = 0; row < message.height; row++)
+      cells.set(
+        message.cells.subarray(row * message.width, (row + 1) * message.width),
+        (message.y + row) * width + message.x,
+      );
+    const texture = entry.object.userData.texture as THREE.Texture | undefined;
+    if (texture) texture.needsUpdate = true;
+    this.context.redraw();
+  }
+
+  /** Returns the number of cells with each value. */
+  protected override describe({ width, height, cells }: Grid): Record<string, unknown> {
+    const counts: Record<number, number> = {};
+    for (const cell of cells) counts[cell] = (counts[cell] ?? 0) + 1;
+    return { width, height, counts };
+  }
+
   protected build(message: Grid): THREE.Object3D {
     const { width, height, resolution } = message;
     const group = new THREE.Group();
@@ -32,6 +59,7 @@ export class MapDisplay extends MessageDisplay<Grid, "Map"> {
     mesh.position.set(...(message.origin.subarray(0, 3) as unknown as [number, number, number]));
     mesh.quaternion.fromArray(message.origin, 3);
     group.add(mesh);
+    group.userData.texture = texture;
     return group;
   }
 
@@ -65,6 +93,7 @@ export class MapDisplay extends MessageDisplay<Grid, "Map"> {
       uniforms: {
         cells: { value: texture },
         alpha: { value: this.options.number("Alpha") },
+        threshold: { value: this.options.flag("Binary representation") ? this.options.number("Binary threshold") : -1 },
         scheme: { value: ["map", "costmap", "raw"].indexOf(this.options.choice("Color Scheme")) },
       },
       vertexShader: `
@@ -73,19 +102,23 @@ export class MapDisplay extends MessageDisplay<Grid, "Map"> {
       fragmentShader: `
         uniform sampler2D cells;
         uniform float alpha;
+        uniform float threshold;
         uniform int scheme;
         varying vec2 at;
         void main() {
           float cell = floor(texture2D(cells, at).r * 255.0 + 0.5);
+          if (threshold >= 0.0 && cell <= 127.0) cell = cell >= threshold ? 100.0 : 0.0;
           float part = cell / 100.0;
           if (scheme == 2) { gl_FragColor = vec4(vec3(cell / 255.0), alpha); return; }
+          vec3 color = vec3(1.0 - part);
           if (scheme == 1) {
             if (cell == 0.0) discard;
-            vec3 cost = cell == 100.0 ? vec3(1.0, 0.0, 1.0) : cell == 99.0 ? vec3(0.0, 1.0, 1.0) : vec3(part, 0.0, 1.0 - part);
-            gl_FragColor = vec4(cell > 100.0 ? vec3(0.44, 0.54, 0.53) : cost, alpha);
-            return;
+            color = cell == 100.0 ? vec3(1.0, 0.0, 1.0) : cell == 99.0 ? vec3(0.0, 1.0, 1.0) : vec3(part, 0.0, 1.0 - part);
           }
-          vec3 color = cell <= 100.0 ? vec3(1.0 - part) : vec3(0.44, 0.54, 0.53);
+          // Illegal values, as in RViz: 101 to 127 are green, -128 to -2 red to yellow; -1 is unknown.
+          if (cell > 100.0) color = vec3(0.0, 1.0, 0.0);
+          if (cell > 127.0) color = vec3(1.0, (cell - 128.0) / 126.0, 0.0);
+          if (cell == 255.0) color = vec3(0.44, 0.54, 0.53);
           gl_FragColor = vec4(color, alpha);
         }`,
     });

@@ -12,6 +12,7 @@ import { arrowGeometry } from "./arrows";
 import type { PickedPart } from "../model/picked";
 import type { Hit } from "../scene/picking";
 import { isInside, MessageDisplay, type Context, type DisplayConfig } from "./display";
+import { billboards } from "./billboards";
 
 const MAX_NAMESPACES = 200;
 const MAX_TEXT = 200;
@@ -135,7 +136,7 @@ export class MarkersDisplay extends MessageDisplay<Shapes, "Marker" | "MarkerArr
       case 7:
         return instanced(new THREE.SphereGeometry(0.5, 12, 8), item, points, colors);
       case 8:
-        return instanced(new THREE.BoxGeometry(1, 1, 0.01), item, points, colors);
+        return squares(item, points, colors);
       case 9:
         return text(item);
       case 10:
@@ -295,7 +296,7 @@ function instanced(
   if (colored) made.color.set(0xffffff);
   const mesh = new THREE.InstancedMesh(geometry, made, count);
   const matrix = new THREE.Matrix4();
-  const [x, y, z] = item.type === 8 ? [item.scale[0], item.scale[1], item.scale[0]] : item.scale;
+  const [x, y, z] = item.scale;
   for (let i = 0; i < count; i++) {
     matrix.makeScale(x, y, z).setPosition(new THREE.Vector3().fromArray(points, i * 3));
     mesh.setMatrixAt(i, matrix);
@@ -303,6 +304,17 @@ function instanced(
   }
   mesh.frustumCulled = false;
   return mesh;
+}
+
+/** Rectangles that face the camera, at points. */
+function squares(item: DrawableMarker, points: Float32Array, colors: Float32Array): THREE.Object3D {
+  const colored = colors.length / 4 >= points.length / 3;
+  const rgba = new Uint8Array((points.length / 3) * 4);
+  for (let i = 0; i < rgba.length; i++) {
+    const value = colored ? colors[i] : item.rgba[i % 4];
+    rgba[i] = Math.round(255 * Math.max(0, Math.min(1, value ?? 1)));
+  }
+  return billboards(points, rgba, item.scale[0], item.scale[1]);
 }
 
 function triangles(item: DrawableMarker, points: Float32Array, colors: Float32Array): THREE.Object3D {

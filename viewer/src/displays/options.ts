@@ -63,9 +63,17 @@ export class Options<C extends DisplayClass = DisplayClass> {
     return cssColor(this.value(spec.key)) ?? spec.value;
   }
 
-  /** Whether an option has an effect: the flag that it needs is on. */
+  /** Whether an option has an effect: all conditions that it needs are met, and the options in them have an effect. */
   hasEffect(spec: OptionSpec): boolean {
-    return spec.needs === undefined || this.flagOf(this.spec(spec.needs, "flag"));
+    return spec.needs === undefined || spec.needs.split(" & ").every((condition) => this.isMet(condition));
+  }
+
+  /** Whether a condition is met: "Key" is a flag that is on, "!Key" one that is off, "Key=A|B" a choice. */
+  private isMet(condition: string): boolean {
+    const [key, choices] = condition.replace(/^!/, "").split("=") as [string, string | undefined];
+    const spec = this.specs.find((one) => one.key === key);
+    if (spec?.kind === "choice") return (choices ?? "").split("|").includes(this.choiceOf(spec));
+    return spec?.kind === "flag" && this.flagOf(spec) !== condition.startsWith("!");
   }
 
   /** The fields of the subscription that the options set. */

@@ -16,6 +16,7 @@ import {
   readEntryRecord,
   readFramesHeader,
   readGridHeader,
+  readGridPartHeader,
   readImageHeader,
   readNodeHeader,
   readShapesHeader,
@@ -81,6 +82,18 @@ export interface Grid {
   cells: Int8Array;
 }
 
+/** New cells of a grid that was received. */
+export interface GridPart {
+  kind: "grid_part";
+  id: number;
+  sequence: number;
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+  cells: Int8Array;
+}
+
 export interface Image {
   kind: "image";
   id: number;
@@ -92,6 +105,8 @@ export interface Image {
   step: number;
   stamp: number;
   data: Uint8Array<ArrayBuffer>;
+  /** Measured values, such as depths; null for images with colors or brightness. */
+  values: Uint16Array | Float32Array | null;
 }
 
 export interface Shapes {
@@ -131,7 +146,7 @@ export interface NodeGeometry {
 }
 
 export type BinaryMessage = FrameUpdate | DisplayMessage | Curves | NodeGeometry;
-export type DisplayMessage = Cloud | Grid | Shapes | Image;
+export type DisplayMessage = Cloud | Grid | GridPart | Shapes | Image;
 
 /** Reads fields one after another; throws a ProtocolError if the data ends too early. */
 class Reader implements FieldReader {
@@ -203,6 +218,7 @@ export function decode(buffer: ArrayBuffer): BinaryMessage {
   if (kind === BinaryKind.frames) return decodeFrameUpdate(new Reader(buffer, "frame update"));
   if (kind === BinaryKind.cloud) return decodeCloud(new Reader(buffer, "cloud"));
   if (kind === BinaryKind.grid) return decodeGrid(new Reader(buffer, "grid"));
+  if (kind === BinaryKind.gridPart) return decodeGridPart(new Reader(buffer, "grid part"));
   if (kind === BinaryKind.shapes) return decodeShapes(new Reader(buffer, "shapes"));
   if (kind === BinaryKind.image) return decodeImage(new Reader(buffer, "image"));
   if (kind === BinaryKind.curves) return decodeCurves(new Reader(buffer, "curves"));
@@ -238,6 +254,13 @@ function decodeGrid(reader: Reader): Grid {
   return { kind: "grid", id, sequence, width, height, resolution, origin, cells };
 }
 
+function decodeGridPart(reader: Reader): GridPart {
+  const { display: id, sequence, x, y, width, height } = readGridPartHeader(reader);
+  const bytes = reader.bytes(width * height);
+  const cells = new Int8Array(bytes.buffer, bytes.byteOffset, bytes.length);
+  return { kind: "grid_part", id, sequence, x, y, width, height, cells };
+}
+
 function decodeShapes(reader: Reader): Shapes {
   const { display: id, sequence, length } = readShapesHeader(reader);
   const text = new TextDecoder().decode(reader.bytes(length));
@@ -254,10 +277,24 @@ function decodeShapes(reader: Reader): Shapes {
 function decodeImage(reader: Reader): Image {
   const { display: id, sequence, width, height, format: flags, stamp } = readImageHeader(reader);
   const format = flags & 255;
-  const raw = format === ImageFormat.gray ? width * height : format === ImageFormat.rgb ? 3 * width * height : null;
-  const data = reader.bytes(raw ?? reader.rest());
-  return { kind: "image", id, sequence, width, height, format, step: Math.max(1, flags >>> 8), stamp, data };
+  const step = Math.max(1, flags >>> 8);
+  const bytes = BYTES_PER_PIXEL[format];
+  const data = reader.bytes(bytes === undefined ? reader.rest() : bytes * width * height);
+  const values =
+    format === ImageFormat.gray16
+      ? new Uint16Array(data.slice().buffer)
+      : format === ImageFormat.float
+        ? new Float32Array(data.slice().buffer)
+        : null;
+  return { kind: "image", id, sequence, width, height, format, step, stamp, data, values };
 }
+
+const BYTES_PER_PIXEL: Readonly<Record<number, number>> = {
+  [ImageFormat.gray]: 1,
+  [ImageFormat.rgb]: 3,
+  [ImageFormat.gray16]: 2,
+  [ImageFormat.float]: 4,
+};
 
 function decodeCurves(reader: Reader): Curves {
   const { curves: count } = readCurvesHeader(reader);

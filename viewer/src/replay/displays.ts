@@ -58,7 +58,7 @@ export class ReplayDisplay {
     const packed = this.block.drawings[String(sequence)];
     if (packed === undefined) return null;
     const decoded = decode(bytes(packed, 1));
-    if (decoded.kind === "frames" || decoded.kind === "curves" || decoded.kind === "node") return null;
+    if (!("sequence" in decoded)) return null;
     return { ...decoded, id, sequence };
   }
 

@@ -14,9 +14,13 @@ const GRAY: Color = [0.62, 0.62, 0.6];
 const YELLOW: Color = [0.99, 0.91, 0.2];
 
 export function scaleColor(value: number, distinct: boolean): string {
+  return css(rgbOf(value, distinct));
+}
+
+export function rgbOf(value: number, distinct: boolean): Color {
   const t = Math.max(0, Math.min(1, value));
-  if (!distinct) return css(TURBO.map((c) => c.reduceRight((sum, part) => sum * t + part, 0)) as Color);
-  return css(mix(mix(BLUE, GRAY, smoothstep(0, 0.55, t)), YELLOW, smoothstep(0.45, 1, t)));
+  if (!distinct) return TURBO.map((c) => c.reduceRight((sum, part) => sum * t + part, 0)) as Color;
+  return mix(mix(BLUE, GRAY, smoothstep(0, 0.55, t)), YELLOW, smoothstep(0.45, 1, t));
 }
 
 export function css(color: readonly number[]): string {

@@ -267,7 +267,10 @@ def _encode_problem(problem: DescriptionProblem) -> str:
 
 
 def _encode_status(number: int, status: Status) -> str:
-    return encode(DisplayStatus(type="display", id=number, state=status.state, text=status.text))
+    message = DisplayStatus(type="display", id=number, state=status.state, text=status.text)
+    if status.note:
+        message["note"] = status.note
+    return encode(message)
 
 
 def _unchanged(data: bytearray) -> bytearray:

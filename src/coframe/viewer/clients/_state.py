@@ -13,7 +13,9 @@ from coframe.viewer._state import FRAME_TIMEOUT
 from coframe.viewer.clients._panels import ClientPanels
 from coframe.viewer.clients._playback_clock import PlaybackClock
 from coframe.viewer.clients._scripting import SentRecords
+from coframe.viewer.displays._renderers import Resources
 from coframe.viewer.displays.display import Display
+from coframe.viewer.displays.rows import row_of
 from coframe.viewer.protocol.requests import BadRequestError
 
 if TYPE_CHECKING:
@@ -39,6 +41,8 @@ class Subscription:
         topic: The name of the topic.
         options: The drawing options.
         display: The display; None while the topic does not exist.
+        resources: What the display uses besides its topic.
+        missing: Other topics of the display that do not exist yet.
         serial: A number that differs between all subscriptions.
     """
 
@@ -46,6 +50,8 @@ class Subscription:
         self.topic = topic
         self.options = options
         self.display: Display | None = None
+        self.resources = Resources(topic)
+        self.missing: tuple[str, ...] = ()
         self.serial = next(_serial_numbers)
 
 
@@ -127,6 +133,8 @@ class ClientState:
         for number, subscription in self.subscriptions.items():
             if subscription.display is None:
                 self._open(number, subscription)
+            elif subscription.missing:
+                self._open_others(subscription)
 
     def restart(self) -> None:
         """Restart after a change of the source or the origin: close all displays, to be reopened later."""
@@ -180,13 +188,29 @@ class ClientState:
     def _open(self, number: int, subscription: Subscription) -> None:
         viewer = self.viewer
         messages = viewer.open(subscription.topic)
-        if messages is not None:
-            subscription.display = Display(
-                number, messages, subscription.options, viewer.meshes.url_or_problem, viewer.executor
-            )
+        if messages is None:
+            return
+        row = row_of(messages.type, subscription.options)
+        subscription.missing = () if row is None else row.other_topics(subscription.topic, subscription.options)
+        subscription.resources = Resources(
+            subscription.topic, viewer.meshes.url_or_problem, connection=viewer.source.connection
+        )
+        self._open_others(subscription)
+        subscription.display = Display(number, messages, subscription.options, subscription.resources, viewer.executor)
+
+    def _open_others(self, subscription: Subscription) -> None:
+        """Open the other topics of a display that exist by now."""
+        for topic in subscription.missing:
+            messages = self.viewer.open(topic)
+            if messages is not None:
+                subscription.resources.others[topic] = messages
+        subscription.missing = tuple(one for one in subscription.missing if one not in subscription.resources.others)
 
     def _close(self, subscription: Subscription) -> None:
         if subscription.display is not None:
             subscription.display.close()
             self.viewer.release(subscription.display.messages)
             subscription.display = None
+        for messages in subscription.resources.others.values():
+            self.viewer.release(messages)
+        subscription.resources, subscription.missing = Resources(subscription.topic), ()

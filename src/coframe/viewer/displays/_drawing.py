@@ -4,14 +4,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from coframe.errors import CoframeError
 from coframe.time import stamp_ns
-from coframe.viewer.protocol.client_messages import MAX_POINTS, DisplayOptions
+from coframe.viewer.protocol.client_messages import DisplayOptions
 from coframe.viewer.protocol.encoding import encode_shapes
 
 if TYPE_CHECKING:
@@ -20,9 +20,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from typing_extensions import Self
 
-    from coframe.viewer.protocol.common import ColorBy
-
 __all__ = [
+    "FIXED_FRAME",
     "MAX_NEAR",
     "NO_NUMBERS",
     "CannotDrawError",
@@ -35,6 +34,7 @@ __all__ = [
     "finite",
     "finite_all",
     "header_of",
+    "near_points",
     "pose_row",
     "pose_rows",
     "rgba_of",
@@ -43,6 +43,8 @@ __all__ = [
 Vector: TypeAlias = tuple[float, float, float]
 PoseRow: TypeAlias = tuple[float, ...]
 """x, y, z, qx, qy, qz, qw."""
+FIXED_FRAME = "<Fixed Frame>"
+"""The frame of a drawing that is expressed in the fixed frame; RViz's files name it like this, too."""
 MAX_NEAR = 1000.0
 """Meters. float32 resolves 0.06 mm up to here."""
 _MAX_FAR = 1e12  # meters; differences of larger numbers are rounded in float64, too
@@ -64,6 +66,8 @@ class Drawing:
         locked: Whether the drawing moves with its frame after its stamp.
         placed: Whether it is part of the scene; images are shown next to it.
         offset: Position of the drawing in the frame, in meters; see :func:`far_offset`.
+        changes: Binary messages that change the drawing after the page has received it.
+        note: What the drawing omits, or "" if it is complete.
     """
 
     frame: str
@@ -72,6 +76,8 @@ class Drawing:
     locked: bool = False
     placed: bool = True
     offset: Vector = (0.0, 0.0, 0.0)
+    changes: list[bytearray] = field(default_factory=list)
+    note: str = ""
 
     def take_data(self) -> bytearray:
         """Return the binary message and release it, because it is sent only once and may be large."""
@@ -80,36 +86,21 @@ class Drawing:
 
 
 @dataclass(frozen=True)
-class Options:
-    """The drawing options of a display.
+class Options(DisplayOptions):
+    """The drawing options of a display: those that a client requested, and those that the server adds.
 
     Attributes:
-        color_by: The value shown by a point's color; None selects the best available one.
-        axis: 0, 1 or 2: the coordinate for ``color_by="axis"``.
-        decay: How long messages stay visible, in seconds.
-        keep: The number of poses in the trail of an Odometry display.
-        max_points: The maximum number of points of a cloud; larger clouds are thinned.
         origin: The origin of the times that the page receives, in nanoseconds.
+        is_replay: Whether each drawing has to be complete, because a replay contains only some of them.
     """
 
-    color_by: ColorBy | None = None
-    axis: int = 2
-    decay: float = 0.0
-    keep: int = 1
-    max_points: int = MAX_POINTS
     origin: int = 0
+    is_replay: bool = False
 
     @classmethod
     def from_message(cls, options: DisplayOptions, origin: int = 0) -> Self:
         """Return the options that a client requested."""
-        return cls(
-            color_by=options.color_by,
-            axis="xyz".index(options.axis),
-            decay=options.decay,
-            keep=options.keep,
-            max_points=options.max_points,
-            origin=origin,
-        )
+        return cls(**{one.name: getattr(options, one.name) for one in fields(options)}, origin=origin)
 
 
 def finite(value: Any) -> float | None:
@@ -158,6 +149,13 @@ def pose_rows(rows: Sequence[PoseRow]) -> tuple[NDArray[np.float32], Vector]:
     numbers[:, :3] -= offset
     with np.errstate(over="ignore"):  # Values that are too large for float32 become infinite.
         return numbers.astype(np.float32), offset
+
+
+def near_points(points: NDArray[np.float64]) -> tuple[NDArray[np.float32], Vector]:
+    """Return points, (N, 3), as the numbers of a drawing, and the point to which they are relative."""
+    offset = far_offset(points)
+    with np.errstate(over="ignore"):  # Values that are too large for float32 become infinite.
+        return (points - offset).astype(np.float32), offset
 
 
 def header_of(message: Any, options: Options) -> tuple[str, float]:

@@ -3,33 +3,81 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+
+from coframe.errors import CoframeError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from coframe.connection.connection import Connection
     from coframe.viewer.displays._drawing import Drawing, Options
     from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 
-__all__ = ["MeshUrl", "NewMessages", "Renderer", "RendererFactory", "draw_each_message"]
+__all__ = [
+    "MeshUrl",
+    "NewMessages",
+    "Renderer",
+    "RendererFactory",
+    "Resources",
+    "UnfinishedError",
+    "draw_each_message",
+]
 
 MeshUrl: TypeAlias = "Callable[[str], tuple[str | None, str | None]]"
-RendererFactory: TypeAlias = "Callable[[TopicMessages, Options, MeshUrl], Renderer]"
+RendererFactory: TypeAlias = "Callable[[TopicMessages, Options, Resources], Renderer]"
 """Returns a renderer for the messages on a topic."""
+
+
+def _no_mesh(_reference: str) -> tuple[str | None, str | None]:
+    return None, "meshes are not available here"
+
+
+@dataclass
+class Resources:
+    """What renderers need besides the messages on their topic.
+
+    Attributes:
+        topic: The name of the topic.
+        mesh_url: Returns the URL of a marker's mesh, or the reason why there is none.
+        others: The messages on the display's other topics, as far as these exist.
+        connection: The connection to the ROS graph, or None if there is none.
+    """
+
+    topic: str = ""
+    mesh_url: MeshUrl = _no_mesh
+    others: dict[str, TopicMessages] = field(default_factory=dict)
+    connection: Connection | None = None
+
+
+class UnfinishedError(CoframeError, RuntimeError):
+    """Drawing takes longer; the next call continues. The message describes the progress."""
 
 
 class Renderer(Protocol):
     """Converts messages on one topic to drawings."""
 
-    def draw(self, message: StampedMessage, time: int) -> list[Drawing]:
-        """Return what is visible at a time in nanoseconds, if `message` is the last message.
+    def draw(self, message: StampedMessage, time: int, at: int) -> list[Drawing]:
+        """Return what is visible if `message` is the last message.
+
+        Args:
+            message: The message.
+            time: The displayed time in nanoseconds, at which lifetimes end.
+            at: The time of the newest messages on other topics; 0 if there is no limit.
 
         Raises:
             ValueError: The message cannot be drawn.
+            UnfinishedError: The drawing is not complete yet.
         """
 
-    def has_expired(self, time: int) -> bool:
-        """Return whether a part of the last drawing is no longer visible at a time in nanoseconds."""
+    def has_changed(self, time: int, at: int) -> bool:
+        """Return whether the last drawing is out of date, although the message is the same.
+
+        Args:
+            time: As for `draw`.
+            at: As for `draw`.
+        """
 
 
 class _EachMessage:
@@ -39,20 +87,20 @@ class _EachMessage:
         self._draw = draw
         self._options = options
 
-    def draw(self, message: StampedMessage, time: int) -> list[Drawing]:
+    def draw(self, message: StampedMessage, time: int, at: int) -> list[Drawing]:
         """Return the drawing of the message."""
-        del time
+        del time, at
         return [self._draw(message.read(), self._options)]
 
-    def has_expired(self, time: int) -> bool:
+    def has_changed(self, time: int, at: int) -> bool:
         """Return False."""
-        del time
+        del time, at
         return False
 
 
 def draw_each_message(draw: Callable[[Any, Options], Drawing]) -> RendererFactory:
     """Return a factory of renderers that draw each message by itself, with a function."""
-    return lambda _messages, options, _mesh_url: _EachMessage(draw, options)
+    return lambda _messages, options, _resources: _EachMessage(draw, options)
 
 
 class NewMessages:

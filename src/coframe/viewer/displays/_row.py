@@ -7,11 +7,12 @@ import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from coframe.viewer.displays._drawing import FIXED_FRAME
 from coframe.viewer.protocol.client_messages import DisplayOptions
 from coframe.viewer.protocol.schema import record
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from coframe.viewer.displays._renderers import RendererFactory
 
@@ -26,9 +27,6 @@ __all__ = [
     "TextOption",
 ]
 
-FIXED_FRAME = "<Fixed Frame>"
-"""How RViz writes that an option means the fixed frame."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class _Details:
@@ -36,7 +34,8 @@ class _Details:
 
     Attributes:
         label: The label on the page, or "" for the key.
-        needs: The key of a flag without which the option has no effect.
+        needs: When the option has an effect; it is hidden otherwise. Conditions are joined by " & ": "Key" is a flag
+            that is on, "!Key" one that is off, and "Key=A|B" a choice. "" means always.
         sets: The field of `DisplayOptions` that the option sets, or "" if only the page uses it.
     """
 
@@ -138,6 +137,10 @@ class TextOption(_Details):
 Option: TypeAlias = NumberOption | FlagOption | ColorOption | ChoiceOption | TextOption
 
 
+def _no_topics(_topic: str, _options: DisplayOptions) -> tuple[str, ...]:
+    return ()
+
+
 @dataclass(frozen=True, kw_only=True)
 class DisplayRow:
     """A display.
@@ -154,6 +157,11 @@ class DisplayRow:
         large_in_replay: Whether a replay records it last, in the remaining space.
         has_surfaces: Whether the page's tools find points on it.
         projected: Whether its lines and meshes can be drawn above images.
+        other_topics: Returns the further topics that a display of a topic needs, from the topic and its options.
+        topic_key: The key in an .rviz file that contains the topic, or "" if it is one of the usual ones.
+        topic_suffix: What the topic has in addition to the name in an .rviz file.
+        guide: What the display shows, for the table in the guide.
+        lacks: The properties of RViz's display that it lacks, with the reason; "" if there are none.
     """
 
     name: str
@@ -167,6 +175,11 @@ class DisplayRow:
     large_in_replay: bool = False
     has_surfaces: bool = True
     projected: bool = False
+    other_topics: Callable[[str, DisplayOptions], tuple[str, ...]] = _no_topics
+    topic_key: str = ""
+    topic_suffix: str = ""
+    guide: str = ""
+    lacks: str = ""
 
     def server_options(self, values: Mapping[str, Any]) -> DisplayOptions:
         """Return the options with which the page would subscribe to a topic.
@@ -175,5 +188,5 @@ class DisplayRow:
             values: The options in an .rviz file; missing and invalid ones have their defaults.
         """
         chosen = {option.sets: option.sent(values.get(option.key)) for option in self.options if option.sets}
-        checked: DisplayOptions = record(DisplayOptions).build(chosen)
+        checked: DisplayOptions = record(DisplayOptions).build({**chosen, "display": self.name})
         return checked

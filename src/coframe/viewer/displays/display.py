@@ -18,6 +18,8 @@ import numpy as np
 from coframe._output.formatting import count
 from coframe.errors import ConnectivityException, ExtrapolationException, LookupException, TransformException
 from coframe.time import SECOND
+from coframe.viewer.displays._drawing import FIXED_FRAME
+from coframe.viewer.displays._renderers import UnfinishedError
 from coframe.viewer.displays.rows import make_renderer
 from coframe.viewer.protocol.encoding import EntryPose, set_owner
 
@@ -28,7 +30,7 @@ if TYPE_CHECKING:
 
     from coframe.buffer.buffer import Buffer
     from coframe.viewer.displays import Drawing, Options
-    from coframe.viewer.displays._renderers import MeshUrl, Renderer
+    from coframe.viewer.displays._renderers import Renderer, Resources
     from coframe.viewer.protocol.common import DisplayState
     from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 
@@ -40,8 +42,9 @@ _logger = logging.getLogger("coframe.viewer")
 TRANSFORM_TIMEOUT = 1.0
 _CACHE_LENGTH = "15s"
 MAX_DRAWINGS = 1000  # maximum per message
-MAX_LAYERS = 200
-_IDENTITY = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
+MAX_LAYER_BYTES = 256 << 20
+"""The drawings that stay visible for a decay time or as history may take this much memory in the page."""
+_ENTRY_BYTES = 4096  # what a drawing takes there besides its data
 
 
 class Status(NamedTuple):
@@ -49,13 +52,14 @@ class Status(NamedTuple):
 
     state: DisplayState
     text: str = ""
+    note: str = ""
 
 
 class _Rendered(NamedTuple):
-    """A message with its drawings, or with the reason why there are none."""
+    """A message with its drawings, or with the status that says why there are none."""
 
     message: StampedMessage
-    drawings: list[Drawing] | str
+    drawings: list[Drawing] | Status
 
 
 class _Entry:
@@ -66,6 +70,7 @@ class _Entry:
         self.frame = frame
         self.sequence = sequence
         self.sent = False
+        self.size = len(drawing.data) + _ENTRY_BYTES
         self.pose: NDArray[np.float64] | None = None
         self.error: TransformException | None = None
         self._fixed: str | None = None  # The fixed frame of the pose.
@@ -76,8 +81,8 @@ class _Entry:
         if self._fixed == fixed and self.pose is not None and not drawing.locked:
             return True
         self.pose, self._fixed = None, fixed
-        if not drawing.placed:
-            self.pose = _IDENTITY
+        if not drawing.placed or self.frame == FIXED_FRAME:
+            self.pose = np.array([*drawing.offset, 0.0, 0.0, 0.0, 1.0])
             return True
         try:
             if drawing.locked:
@@ -113,6 +118,11 @@ class _Layer(NamedTuple):
         return missing[0] if missing else None
 
     @property
+    def size(self) -> int:
+        """The memory that the drawings take in the page, in bytes."""
+        return sum(entry.size for entry in self.entries)
+
+    @property
     def is_hopeless(self) -> bool:
         return all(entry.is_hopeless for entry in self.entries if entry.error is not None)
 
@@ -124,26 +134,33 @@ class Display:
         number: The id that the page chose.
         messages: The messages on the topic.
         options: The drawing options.
-        mesh_url: Returns the URL of a marker's mesh, or the reason why there is none.
+        resources: What renderers need besides these messages.
         executor: Runs the rendering, so that large messages do not block the server.
+
+    Attributes:
+        status: What the page shows about the display.
+        is_unfinished: Whether the next updates continue to draw the same message.
     """
 
     def __init__(
-        self, number: int, messages: TopicMessages, options: Options, mesh_url: MeshUrl, executor: Executor
+        self, number: int, messages: TopicMessages, options: Options, resources: Resources, executor: Executor
     ) -> None:
         self.number = number
         self.messages = messages
         self.status = Status("waiting", "no message yet")
         self._options = options
         self._executor = executor
-        self._renderer: Renderer = make_renderer(messages, options, mesh_url)
+        self._resources = resources
+        self._renderer: Renderer = make_renderer(messages, options, resources)
+        self.is_unfinished = False
         self._sequences = itertools.count(1)
         self._last_key: int | None = None  # The key of the message that was drawn last.
         self._work: Future[_Rendered | None] | None = None
         self._incoming: _Layer | None = None
         self._incoming_since = 0.0
         self._left_out = 0  # drawings of the pending layer
-        self._layers: deque[_Layer] = deque(maxlen=MAX_LAYERS)
+        self._layers: deque[_Layer] = deque()
+        self._layer_bytes = 0
 
     def update(self, buffer: Buffer, fixed: str, at: int, now: int) -> None:
         """Update the drawing to the messages visible at a time.
@@ -171,6 +188,11 @@ class Display:
                 data = entry.drawing.take_data()
                 set_owner(data, self.number, entry.sequence)
                 drawings.append((entry.sequence, data))
+            changes = entry.drawing.changes
+            while changes:
+                change = changes.pop(0)
+                set_owner(change, self.number, entry.sequence)
+                drawings.append((entry.sequence, change))
         return drawings
 
     def poses(self) -> list[EntryPose]:
@@ -205,21 +227,23 @@ class Display:
         message = self.messages.at(at)
         if message is None:
             self._show_nothing(at)
-        elif self._has_changed(message, now):
-            self._work = self._executor.submit(_render, self._renderer, message, now)
+        elif self._has_changed(message, now, at):
+            self._work = self._executor.submit(_render, self._renderer, message, now, at)
 
     def _find_and_render(self, at: int, now: int) -> _Rendered | None:
         """Find the message outside the server's thread, because this is slow, or None if nothing changed."""
         message = self.messages.at(at)
-        if message is None or not self._has_changed(message, now):
+        if message is None or not self._has_changed(message, now, at):
             return None
-        return _render(self._renderer, message, now)
+        return _render(self._renderer, message, now, at)
 
-    def _has_changed(self, message: StampedMessage, now: int) -> bool:
-        return self._last_key != message.key or self._renderer.has_expired(now)
+    def _has_changed(self, message: StampedMessage, now: int, at: int) -> bool:
+        return self._last_key != message.key or self._renderer.has_changed(now, at)
 
     def _show_nothing(self, at: int) -> None:
-        self._layers.clear()
+        self._clear_layers()
+        if self._last_key is not None:  # A new renderer, because the page no longer has the drawings of this one.
+            self._renderer = make_renderer(self.messages, self._options, self._resources)
         self._last_key = None
         self.status = Status("waiting", "no message yet" if at == 0 else "no message before this time")
 
@@ -229,25 +253,31 @@ class Display:
         rendered, self._work = self._work.result(), None
         if rendered is None:
             return
-        self._last_key = rendered.message.key
-        if isinstance(rendered.drawings, str):
-            self.status = Status("error", rendered.drawings)
+        self.is_unfinished = isinstance(rendered.drawings, Status) and rendered.drawings.state == "waiting"
+        if isinstance(rendered.drawings, Status):
+            self.status = rendered.drawings
+            if rendered.drawings.state == "error":
+                self._last_key = rendered.message.key
             return
+        self._last_key = rendered.message.key
         # Unchanged groups of markers return the same drawing, which the client already has.
         known = {id(entry.drawing): entry for entry in self._entries()}
         entries = [
-            known.get(id(drawing)) or _Entry(drawing, next(self._sequences), self.messages.frame(drawing.frame))
+            known.get(id(drawing)) or _Entry(drawing, next(self._sequences), self._frame(drawing))
             for drawing in rendered.drawings[:MAX_DRAWINGS]
         ]
         self._left_out = len(rendered.drawings) - len(entries)
         self._incoming = _Layer(rendered.message.time, entries)
         self._incoming_since = time.monotonic()
 
+    def _frame(self, drawing: Drawing) -> str:
+        return FIXED_FRAME if drawing.frame == FIXED_FRAME else self.messages.frame(drawing.frame)
+
     def _place_incoming(self, layer: _Layer, buffer: Buffer, fixed: str, at: int) -> None:
         missing = layer.place(buffer, fixed, at)
         if missing is None:
             self._show(layer)
-            self.status = Status("ok")
+            self.status = Status("ok", note=self._note(layer))
             if self._left_out:
                 left_out = count(self._left_out, "group")
                 self.status = Status(
@@ -257,7 +287,10 @@ class Display:
         waited = time.monotonic() - self._incoming_since
         if at == 0 and waited < TRANSFORM_TIMEOUT and not layer.is_hopeless:
             return
-        self._show(_Layer(layer.time, [entry for entry in layer.entries if entry.pose is not None]))
+        placed = [entry for entry in layer.entries if entry.pose is not None]
+        self._incoming = None
+        if placed or not self._layers:  # Otherwise the previous message stays, as in RViz.
+            self._show(_Layer(layer.time, placed))
         self.status = Status("error", _with_hint(missing))
 
     def _place_again(self, buffer: Buffer, fixed: str, at: int) -> None:
@@ -267,23 +300,43 @@ class Display:
             self.status = Status("error", _with_hint(missing[0]))
 
     def _show(self, layer: _Layer) -> None:
+        """Add the drawings of a message, and remove those that are too old or do not fit into the memory."""
         self._incoming = None
-        if self._layers and (layer.time < self._layers[-1].time or self._options.decay == 0.0):
-            self._layers.clear()
-        while self._layers and self._layers[0].time < layer.time - self._options.decay * SECOND:
-            self._layers.popleft()
+        decay, history = self._options.decay, self._options.history
+        if self._layers and layer.time < self._layers[-1].time:
+            self._clear_layers()
         self._layers.append(layer)
+        self._layer_bytes += layer.size
+        oldest = layer.time - decay * SECOND
+        while len(self._layers) > 1 and (
+            self._layer_bytes > MAX_LAYER_BYTES
+            or (len(self._layers) > history and (decay == 0.0 or self._layers[0].time < oldest))
+        ):
+            self._layer_bytes -= self._layers.popleft().size
+
+    def _clear_layers(self) -> None:
+        self._layers.clear()
+        self._layer_bytes = 0
+
+    def _note(self, layer: _Layer) -> str:
+        """Return what the display omits."""
+        if self._layer_bytes + layer.size > MAX_LAYER_BYTES and len(self._layers) > 1:
+            shown = (self._layers[-1].time - self._layers[0].time) / SECOND
+            return f"the last {shown:.0f} s, because the drawings take at most {MAX_LAYER_BYTES >> 20} MiB"
+        return next((entry.drawing.note for entry in layer.entries if entry.drawing.note), "")
 
 
-def _render(renderer: Renderer, message: StampedMessage, now: int) -> _Rendered:
+def _render(renderer: Renderer, message: StampedMessage, now: int, at: int) -> _Rendered:
     """Return the drawings, or the reason why there are none, because a message may contain anything."""
     try:
-        return _Rendered(message, renderer.draw(message, now))
+        return _Rendered(message, renderer.draw(message, now, at))
+    except UnfinishedError as progress:
+        return _Rendered(message, Status("waiting", str(progress)))
     except ValueError as error:
-        return _Rendered(message, f"the message cannot be drawn: {error}")
+        return _Rendered(message, Status("error", f"the message cannot be drawn: {error}"))
     except Exception as error:  # An unexpected error in one message must not stop the viewer.
         _logger.exception("a message could not be drawn")
-        return _Rendered(message, f"the message cannot be drawn: {type(error).__name__}: {error}")
+        return _Rendered(message, Status("error", f"the message cannot be drawn: {type(error).__name__}: {error}"))
 
 
 def _with_hint(error: TransformException) -> str:

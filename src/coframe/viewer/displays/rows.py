@@ -18,10 +18,11 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from coframe.viewer.displays._drawing import Drawing, Options
-    from coframe.viewer.displays._renderers import MeshUrl, Renderer
+    from coframe.viewer.displays._renderers import Renderer, Resources
+    from coframe.viewer.protocol.client_messages import DisplayOptions
     from coframe.viewer.sources.topic_messages import TopicMessages
 
-__all__ = ["DISPLAYS", "DISPLAY_OF_TYPE", "MAX_AUTOMATIC_DISPLAYS", "displayable", "make_renderer"]
+__all__ = ["DISPLAYS", "DISPLAY_OF_TYPE", "MAX_AUTOMATIC_DISPLAYS", "displayable", "make_renderer", "row_of"]
 
 MAX_AUTOMATIC_DISPLAYS = 12
 """How many topics are displayed if neither the user nor a file chooses the displays."""
@@ -72,13 +73,19 @@ def _plainness(topic: tuple[str, str]) -> tuple[int, int, str]:
     return topic[0].count("/"), len(topic[0]), topic[0]
 
 
-def make_renderer(messages: TopicMessages, options: Options, mesh_url: MeshUrl) -> Renderer:
+def row_of(ros_type: str, options: DisplayOptions) -> DisplayRow | None:
+    """Return the display that draws messages of a type with these options, or None if there is none."""
+    chosen = DISPLAYS.get(options.display)
+    return chosen if chosen is not None and ros_type in chosen.messages else DISPLAY_OF_TYPE.get(ros_type)
+
+
+def make_renderer(messages: TopicMessages, options: Options, resources: Resources) -> Renderer:
     """Return what draws the messages on a topic; drawing messages of other types raises CannotDrawError."""
-    row = DISPLAY_OF_TYPE.get(messages.type)
+    row = row_of(messages.type, options)
     draw = (
         draw_each_message(partial(_raise_unknown_type, messages.type)) if row is None else row.messages[messages.type]
     )
-    return draw(messages, options, mesh_url)
+    return draw(messages, options, resources)
 
 
 def _raise_unknown_type(ros_type: str, _message: object, _options: Options) -> Drawing:

@@ -29,6 +29,7 @@ class BinaryKind(IntEnum):
     IMAGE = 5
     CURVES = 6
     NODE = 7
+    GRID_PART = 8
 
 
 class FrameState(IntEnum):
@@ -51,12 +52,18 @@ class CloudFlag(IntEnum):
 
 
 class ImageFormat(IntEnum):
-    """The lowest eight bits of an image's format. The bits above 8 hold the thinning step."""
+    """The lowest eight bits of an image's format. The bits above 8 hold the thinning step.
+
+    The values of GRAY16 are uint16, those of FLOAT float32. VIDEO is a sequence of encoded frames.
+    """
 
     GRAY = 0
     RGB = 1
     JPEG = 2
     PNG = 3
+    GRAY16 = 4
+    FLOAT = 5
+    VIDEO = 6
 
 
 class FramesHeader(NamedTuple):
@@ -113,6 +120,21 @@ class GridHeader(NamedTuple):
     height: UInt32
     resolution: Float32
     corner: Float32x7
+
+
+class GridPartHeader(NamedTuple):
+    """New cells of a grid that the page has received, from column x and row y.
+
+    Followed by int8 cells in row-major order.
+    """
+
+    kind: UInt32
+    display: UInt32
+    sequence: UInt32
+    x: UInt32
+    y: UInt32
+    width: UInt32
+    height: UInt32
 
 
 class ShapesHeader(NamedTuple):
@@ -177,6 +199,7 @@ BINARY_RECORDS: tuple[type[Any], ...] = (
     EntryRecord,
     CloudHeader,
     GridHeader,
+    GridPartHeader,
     ShapesHeader,
     ImageHeader,
     CurvesHeader,

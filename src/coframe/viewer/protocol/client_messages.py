@@ -32,6 +32,8 @@ MAX_POINTS = 4_000_000
 MAX_DECAY = 3600.0
 """Seconds."""
 MAX_CURVE_POINTS = 20_000
+MAX_IMAGE_PIXELS = 1 << 25
+DEFAULT_IMAGE_PIXELS = 640 * 480
 
 
 @dataclass(frozen=True)
@@ -39,18 +41,36 @@ class DisplayOptions:
     """The options with which the server prepares a display. Numbers beyond a limit are clamped.
 
     Attributes:
+        display: The class of the display, which draws the messages; "" selects the display of the message type.
         color_by: The value shown by a point's color; None selects the best available one.
+        channel: The field of a cloud for ``color_by="intensity"``.
         axis: The coordinate for ``color_by="axis"``.
         decay: How long messages stay visible, in seconds.
+        history: The number of messages that stay visible, regardless of their age.
         keep: The number of poses in the trail of an Odometry display.
+        position_tolerance: The distance in meters from which a pose of the trail differs from the one before.
+        angle_tolerance: The angle in radians from which a pose of the trail differs from the one before.
         max_points: The maximum number of points of a cloud; larger clouds are thinned.
+        max_pixels: The maximum number of pixels of an image; larger images are thinned.
+        second_topic: Another topic that the display needs: the updates of a map, or the colors of a depth image.
+        frame: The frame in which positions without a frame are drawn; "" is the fixed frame.
+        use_stamp: Whether a map is placed at the stamp of its message, and not at the displayed time.
     """
 
+    display: str = ""
     color_by: ColorBy | None = None
+    channel: str = "intensity"
     axis: AxisName = "z"
     decay: Annotated[float, Clamp(0.0, MAX_DECAY)] = 0.0
+    history: Annotated[int, Clamp(1, MAX_KEPT_MESSAGES)] = 1
     keep: Annotated[int, Clamp(1, MAX_KEPT_MESSAGES)] = 1
+    position_tolerance: Annotated[float, Clamp(0.0, 1e6)] = 0.0
+    angle_tolerance: Annotated[float, Clamp(0.0, 10.0)] = 0.0
     max_points: Annotated[int, Clamp(1, MAX_POINTS)] = MAX_POINTS
+    max_pixels: Annotated[int, Clamp(1, MAX_IMAGE_PIXELS)] = DEFAULT_IMAGE_PIXELS
+    second_topic: str = ""
+    frame: str = ""
+    use_stamp: bool = False
 
 
 @dataclass(frozen=True)

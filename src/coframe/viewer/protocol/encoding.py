@@ -20,6 +20,7 @@ from coframe.viewer.protocol.binary_messages import (
     EntryRecord,
     FramesHeader,
     GridHeader,
+    GridPartHeader,
     ImageFormat,
     ImageHeader,
     NodeHeader,
@@ -41,6 +42,7 @@ __all__ = [
     "encode_curves",
     "encode_frames",
     "encode_grid",
+    "encode_grid_part",
     "encode_image",
     "encode_node",
     "encode_shapes",
@@ -52,6 +54,7 @@ _FRAMES = Layout(FramesHeader)
 _ENTRY = Layout(EntryRecord)
 _CLOUD = Layout(CloudHeader)
 _GRID = Layout(GridHeader)
+_GRID_PART = Layout(GridPartHeader)
 _SHAPES = Layout(ShapesHeader)
 _IMAGE = Layout(ImageHeader)
 _NODE = Layout(NodeHeader)
@@ -166,6 +169,12 @@ def encode_grid(resolution: float, corner: Sequence[float], cells: NDArray[np.in
     height, width = cells.shape
     header = _GRID.pack(BinaryKind.GRID, 0, 0, width, height, resolution, *corner)
     return _join(header, np.ascontiguousarray(cells))
+
+
+def encode_grid_part(x: int, y: int, cells: NDArray[np.int8]) -> bytearray:
+    """Return new cells, (height, width), of an occupancy grid that the page has, from column x and row y."""
+    height, width = cells.shape
+    return _join(_GRID_PART.pack(BinaryKind.GRID_PART, 0, 0, x, y, width, height), np.ascontiguousarray(cells))
 
 
 def encode_shapes(description: Mapping[str, Any], payload: NDArray[np.float32]) -> bytearray:

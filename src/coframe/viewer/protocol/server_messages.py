@@ -186,7 +186,7 @@ class JointMimic(TypedDict):
 class RobotJoint(TypedDict):
     """A joint; ``origin`` is the pose of its child link relative to its parent link at position 0.
 
-    ``value`` is the default position, in radians or meters, of a joint that a slider can move; None for other joints.
+    ``effort`` is the limit in newtons or newton meters. ``value`` is the default position, in radians or meters, of a joint that a slider can move; None for other joints.
     """
 
     name: str
@@ -198,6 +198,7 @@ class RobotJoint(TypedDict):
     mimic: JointMimic | None
     lower: float | None
     upper: float | None
+    effort: float | None
     value: float | None
 
 
@@ -229,7 +230,7 @@ class _DisplayStatus(TypedDict):
 
 
 class DisplayStatus(_DisplayStatus, total=False):
-    """The status of a subscribed display; ``note`` exists only in replays and describes what was omitted."""
+    """The status of a subscribed display; ``note`` describes what is omitted, and is missing if nothing is."""
 
     note: str
 

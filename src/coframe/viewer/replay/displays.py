@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
+from coframe.viewer.displays._renderers import Resources
 from coframe.viewer.displays.display import Display
-from coframe.viewer.displays.rows import DISPLAY_OF_TYPE
+from coframe.viewer.displays.rows import DISPLAYS, row_of
 from coframe.viewer.protocol.encoding import relative_to
 from coframe.viewer.protocol.replay_block import ReplayDisplayBlock
 
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 
     from coframe.buffer.buffer import Buffer
     from coframe.viewer.displays import Options
+    from coframe.viewer.displays._row import DisplayRow
     from coframe.viewer.protocol.common import DisplayState
     from coframe.viewer.sources.topic_messages import TopicMessages
 
@@ -54,6 +56,12 @@ class ReplayDisplay(NamedTuple):
 
     topic: str
     options: Options
+
+    @property
+    def topics(self) -> tuple[str, ...]:
+        """The topic, and the other topics that the display needs."""
+        row = DISPLAYS.get(self.options.display)
+        return (self.topic,) if row is None else (self.topic, *row.other_topics(self.topic, self.options))
 
 
 class ReplayTimes(NamedTuple):
@@ -105,21 +113,18 @@ def record_displays(
     remaining `MAX_BYTES` to every n-th time. The last display, which is a cloud or an image if there is one, may use
     all remaining bytes.
     """
-    known = [one for one in displays if one.topic in messages and messages[one.topic].type in DISPLAY_OF_TYPE]
-    order = sorted(range(len(known)), key=lambda index: _is_large(messages[known[index].topic].type))
+    found = [(one, row_of(messages[one.topic].type, one.options)) for one in displays if one.topic in messages]
+    known = [(one, row) for one, row in found if row is not None]
+    order = sorted(range(len(known)), key=lambda index: known[index][1].large_in_replay)
     blocks: dict[int, ReplayDisplayBlock] = {}
     left = MAX_BYTES
     for index in order:
         room = left if index == order[-1] else left // 2
-        recorder = _DisplayRecorder(index, known[index], messages[known[index].topic], progress)
+        recorder = _DisplayRecorder(index, *known[index], messages, progress)
         recorder.record(replay_times, room)
         left -= recorder.size
         blocks[index] = recorder.block()
     return [blocks[index] for index in range(len(known))]
-
-
-def _is_large(ros_type: str) -> bool:
-    return DISPLAY_OF_TYPE[ros_type].large_in_replay
 
 
 class ImmediateExecutor(Executor):
@@ -139,12 +144,25 @@ class _DisplayRecorder:
     and the stamps of these poses.
     """
 
-    def __init__(self, number: int, display: ReplayDisplay, messages: TopicMessages, progress: Progress) -> None:
+    def __init__(
+        self,
+        number: int,
+        display: ReplayDisplay,
+        row: DisplayRow,
+        messages: Mapping[str, TopicMessages],
+        progress: Progress,
+    ) -> None:
         self._number = number
         self._topic = display.topic
-        self._messages = messages
+        self._messages = messages[display.topic]
+        self._row = row
+        wanted = row.other_topics(display.topic, display.options)
+        others = {topic: messages[topic] for topic in wanted if topic in messages}
+        self._resources = Resources(display.topic, _no_mesh, others)
         self._progress = progress
-        self._options = replace(display.options, max_points=min(display.options.max_points, MAX_CLOUD_POINTS))
+        self._options = replace(
+            display.options, max_points=min(display.options.max_points, MAX_CLOUD_POINTS), is_replay=True
+        )
         self._clear()
 
     def _clear(self) -> None:
@@ -178,7 +196,7 @@ class _DisplayRecorder:
         return ReplayDisplayBlock(
             topic=self._topic,
             type=self._messages.type,
-            display=DISPLAY_OF_TYPE[self._messages.type].name,
+            display=self._row.name,
             color_by=self._options.color_by,
             every=self._every,
             statuses=self._statuses,
@@ -191,11 +209,13 @@ class _DisplayRecorder:
         )
 
     def _try(self, replay_times: ReplayTimes, room: int) -> None:
-        display = Display(self._number, self._messages, self._options, _no_mesh, ImmediateExecutor())
+        display = Display(self._number, self._messages, self._options, self._resources, ImmediateExecutor())
         count = len(replay_times.times)
         for index in range(0, count, self._every):
             at = max(int(replay_times.times[index]), 1)  # 0 would select the newest message.
             for _ in ("draw", "place"):
+                display.update(replay_times.buffer, replay_times.fixed, at, at)
+            while display.is_unfinished:
                 display.update(replay_times.buffer, replay_times.fixed, at, at)
             for sequence, drawing in display.take_unsent():
                 self._drawings[str(sequence)] = base64.b64encode(drawing).decode()
@@ -207,7 +227,8 @@ class _DisplayRecorder:
 
     def _add(self, index: int, display: Display, origin: NDArray[np.float64]) -> None:
         """Add the listing and the status at a time, if they have changed."""
-        if not self._statuses or self._statuses[-1][1:] != display.status:
+        shown = (display.status.state, display.status.text)
+        if not self._statuses or self._statuses[-1][1:] != shown:
             self._statuses.append((index, display.status.state, display.status.text))
         listing = _Listing.of(display, origin, self._options.origin)
         if not self._listings or not listing.equals(self._listings[-1]):

@@ -76,11 +76,12 @@ def export_replay(
     topics = [ROBOT_DESCRIPTION, *(rviz.description_topics if rviz is not None else [])]
     descriptions = RobotDescriptions(robot, dict.fromkeys(topics), meshes)
     descriptions.refresh(source, ImmediateExecutor())
-    topics_shown = dict.fromkeys(display["topic"] or "" for display in displays if _shows_topic(display))
+    enabled = _enabled_displays(displays, 0)
+    topics_shown = dict.fromkeys(topic for display in enabled for topic in display.topics)
     opened = {topic: messages for topic in topics_shown if (messages := source.open(topic)) is not None}
     try:
         if source.connection is not None:
-            _await_messages(opened.values())
+            _await_messages([opened[display.topic] for display in enabled if display.topic in opened])
         for _ in ("read", "store"):
             descriptions.refresh(source, ImmediateExecutor())
         scene = Scene(source.buffer, ages=False)

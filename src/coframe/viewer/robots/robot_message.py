@@ -135,6 +135,7 @@ def _joints_of(robot: Robot) -> Iterator[RobotJoint]:
             mimic=_mimic(joint),
             lower=None if limits is None else limits.lower,
             upper=None if limits is None else limits.upper,
+            effort=None if joint.limits is None else joint.limits.effort,
             value=defaults.get(name),
         )
 

@@ -257,7 +257,8 @@ class ViewerServer:
             replay = state.replay_request(dict(parse_qsl(query)))
             robots = list(state.descriptions.known.values())
             nodes = state.nodes.all()
-            with state.opened(display.topic for display in replay.settings.displays) as messages:
+            topics = [topic for display in replay.settings.displays for topic in display.topics]
+            with state.opened(topics) as messages:
                 content = ReplayContent(state.source.buffer, messages, robots, state.meshes, nodes)
                 page = await self._loop.run_in_executor(state.executor, replay_page, self._static, content, replay)
         except ViewerError as error:

@@ -99,7 +99,9 @@ class RecordedMessages:
         self.type = recording.topics[topic].type
         self._recording = recording
         self._topic = topic
-        self._times = np.sort(recording.stamps(topic))
+        stamps = recording.stamps(topic)
+        self._rows = np.argsort(stamps, kind="stable")
+        self._times = stamps[self._rows]
         self._reading = threading.Lock()
 
     def frame(self, name: str) -> str:
@@ -120,6 +122,10 @@ class RecordedMessages:
         end = self._index_after(time)
         return [self._message(index) for index in range(max(0, end - count), end)]
 
+    def after(self, key: int, last: int) -> list[StampedMessage]:
+        """Return the messages with keys above `key` and up to `last`, oldest first."""
+        return [self._message(index) for index in range(max(key, 0), min(last, len(self._times)))]
+
     def times(self) -> NDArray[np.int64]:
         """Return the positions of all messages on the timeline, in order."""
         return self._times
@@ -134,10 +140,8 @@ class RecordedMessages:
         return StampedMessage(index + 1, int(self._times[index]), lambda: self._read(index))
 
     def _read(self, index: int) -> Any:
-        time = int(self._times[index])
-        earlier = index - int(np.searchsorted(self._times, time, side="left"))
         with self._reading:
-            for skipped, found in enumerate(self._recording.messages(self._topic, start=time, stop=time + 1)):
-                if skipped == earlier:
-                    return found.message
-        raise DecodeError(f"a message of {self._topic} cannot be read: has the recording changed?")
+            found = self._recording.message_in_row(self._topic, int(self._rows[index]))
+        if found is None:
+            raise DecodeError(f"a message of {self._topic} cannot be read: has the recording changed?")
+        return found.message

@@ -53,6 +53,9 @@ class TopicMessages(Protocol):
     def before(self, time: int, count: int) -> list[StampedMessage]:
         """Return up to `count` messages at or before a time, oldest first; 0 selects the newest messages."""
 
+    def after(self, key: int, last: int) -> list[StampedMessage]:
+        """Return the known messages with keys above `key` and up to `last`, oldest first."""
+
     def times(self) -> NDArray[np.int64]:
         """Return the positions of all messages on the timeline, in order."""
 
@@ -122,6 +125,13 @@ class LiveMessages:
         with self._lock:
             end = self._index_after(time)
             return [self._message(one) for one in itertools.islice(self._stored, max(0, end - count), end)]
+
+    def after(self, key: int, last: int) -> list[StampedMessage]:
+        """Return the kept messages with keys above `key` and up to `last`, oldest first."""
+        self._take()
+        with self._lock:
+            newer = itertools.takewhile(lambda stored: stored.key > key, reversed(self._stored))
+            return [self._message(stored) for stored in reversed([one for one in newer if one.key <= last])]
 
     def times(self) -> NDArray[np.int64]:
         """Return the positions of all messages on the timeline, in order."""

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cv_bridge import _encodings
+from coframe.sensors import encodings
 from cv_bridge._conversion import convert
 
 __all__ = ["CV_MAT_CNWrap", "CV_MAT_DEPTHWrap", "cvtColor2", "cvtColorForDisplay", "getCvType"]
@@ -20,7 +20,7 @@ def getCvType(encoding: str) -> int:
     Raises:
         RuntimeError: There is no such encoding.
     """
-    return _encodings.cv_type(_encodings.find(encoding))
+    return encodings.cv_type(encodings.find(encoding))
 
 
 def CV_MAT_CNWrap(i: int) -> int:
@@ -70,7 +70,7 @@ def cvtColorForDisplay(
         RuntimeError: There is no such encoding, or no conversion.
         ModuleNotFoundError: OpenCV is not installed.
     """
-    encoding = _encodings.find(encoding_in)
+    encoding = encodings.find(encoding_in)
     gray = encoding.channels == 1 and encoding.colors in {"", "GRAY"}
     encoding_out = encoding_out or ("mono8" if gray else "bgr8")
     if do_dynamic_scaling:

@@ -24,11 +24,13 @@ TF = DisplayRow(
         NumberOption("Marker Scale", 1.0, 0.01, 1000.0, 0.1),
         NumberOption("Frame Timeout", 15.0, 0.0, 86400.0, 1.0, "s"),
     ),
+    guide="the frames with their names and arrows; needs no messages",
     has_surfaces=False,
 )
 
 GRID = DisplayRow(
     name="Grid",
+    guide="a grid in a plane; needs no messages",
     options=(
         NumberOption("Cell Size", 1.0, 0.001, 10000.0, 0.1, "m"),
         NumberOption("Plane Cell Count", 10.0, 1.0, 1000.0, 1.0),
@@ -42,6 +44,7 @@ GRID = DisplayRow(
 
 AXES = DisplayRow(
     name="Axes",
+    guide="the axes of one frame; needs no messages",
     options=(
         NumberOption("Length", 1.0, 0.001, 10000.0, 0.1, "m"),
         NumberOption("Radius", 0.1, 0.0001, 1000.0, 0.01, "m"),
@@ -53,6 +56,8 @@ AXES = DisplayRow(
 
 ROBOT_MODEL = DisplayRow(
     name="RobotModel",
+    guide="from `/robot_description`, the topics in a `.rviz` file, or a file; with textures from DAE, OBJ, GLB and URDF",
+    lacks="Mass Properties, the list of links, and Update Interval: the page draws each frame update",
     options=(
         FlagOption("Visual Enabled", True),
         FlagOption("Collision Enabled", False),

@@ -70,4 +70,6 @@ CAMERA_INFO = DisplayRow(
         NumberOption("Alpha", 0.15, 0.0, 1.0, 0.05),
     ),
     shapes=(CameraShape,),
+    guide="CameraInfo as a view frustum",
+    lacks="the image plane: an Image display shows the image",
 )

@@ -5,10 +5,13 @@ from __future__ import annotations
 
 import math
 import struct
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from coframe.errors import DecodeError
+from coframe.sensors.depth_images import decode_compressed_depth, decode_gray_png, is_gray_16
+from coframe.sensors.image_pixels import Pixels, decode_image
 from coframe.time import stamp_ns
 from coframe.viewer.displays._drawing import CannotDrawError, Drawing, Options
 from coframe.viewer.displays._renderers import draw_each_message
@@ -16,22 +19,15 @@ from coframe.viewer.displays._row import ChoiceOption, DisplayRow, FlagOption, N
 from coframe.viewer.protocol.binary_messages import ImageFormat
 from coframe.viewer.protocol.encoding import encode_image
 
-__all__ = ["CAMERA", "IMAGE", "MAX_PIXELS", "draw_compressed_image", "draw_image"]
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
-MAX_PIXELS = 640 * 480
-"""Raw images with more pixels are thinned to every n-th row and column."""
+__all__ = ["CAMERA", "IMAGE", "draw_compressed_image", "draw_image"]
+
 MAX_COMPRESSED_PIXELS = 1 << 25  # A small file may need a lot of memory in the browser.
 MAX_COMPRESSED_BYTES = 16 << 20
-# For each encoding: bytes per pixel, and the indices of red, green and blue, or of gray.
-_CHANNELS = {
-    "8UC1": (1, [0]),
-    "8UC3": (3, [2, 1, 0]),
-    "bgr8": (3, [2, 1, 0]),
-    "bgra8": (4, [2, 1, 0]),
-    "mono8": (1, [0]),
-    "rgb8": (3, [0, 1, 2]),
-    "rgba8": (4, [0, 1, 2]),
-}
+_FORMATS = {"uint8": ImageFormat.GRAY, "uint16": ImageFormat.GRAY16, "float32": ImageFormat.FLOAT}
+_COMPRESSED_FORMATS = "JPEG, PNG, compressedDepth"
 _JPEG, _PNG = b"\xff\xd8", b"\x89PNG\r\n\x1a\n"
 # JPEG markers without a length, and those of the frame headers that contain the image size.
 _MARKERS_WITHOUT_LENGTH = {0x01, *range(0xD0, 0xD9)}
@@ -39,33 +35,50 @@ _SIZE_MARKERS = {*range(0xC0, 0xD0)} - {0xC4, 0xC8, 0xCC}
 
 
 def draw_image(image: Any, options: Options) -> Drawing:
-    """Draw an Image with eight bits per channel."""
-    if image.encoding not in _CHANNELS:
-        known = ", ".join(_CHANNELS)
-        raise CannotDrawError(f"image encoding {image.encoding[:40]!r} is not supported. Supported: {known}, JPEG, PNG")
-    size, channels = _CHANNELS[image.encoding]
-    height, width, step = image.height, image.width, image.step
-    data = np.frombuffer(image.data, np.uint8)
-    if step < width * size or len(data) < height * step:
-        raise CannotDrawError(f"an image of {width} x {height} pixels has only {len(data)} bytes, {step} per row")
-    if not height or not width:
-        raise CannotDrawError("the image has no pixels")
-    every = max(1, math.ceil(math.sqrt(width * height / MAX_PIXELS)))
-    pixels = data[: height * step].reshape(height, step)[::every, : width * size].reshape(-1, width, size)[:, ::every]
-    kind = ImageFormat.GRAY if len(channels) == 1 else ImageFormat.RGB
-    pixels = pixels[:, :, channels]
-    stamp = stamp_ns(image.header.stamp)
+    """Draw an Image: brightness and colors with eight bits per channel, measured values unchanged."""
+    return _draw_decoded(image, decode_image, options)
+
+
+def _draw_decoded(message: Any, decode: Callable[[Any], Pixels], options: Options) -> Drawing:
+    """Draw decoded pixels, thinned to the number that the page requests."""
+    try:
+        pixels = decode(message)
+    except DecodeError as error:
+        raise CannotDrawError(str(error)) from None
     height, width = pixels.shape[:2]
-    message = encode_image(kind, width, height, pixels, float(stamp - options.origin), every)
-    return Drawing(image.header.frame_id, stamp, message, placed=False)
+    every = max(1, math.ceil(math.sqrt(width * height / options.max_pixels)))
+    kind = ImageFormat.RGB if pixels.ndim == 3 else _FORMATS[pixels.dtype.name]
+    if every > 1:
+        # Depths are not averaged, because there is nothing at the average of two depths.
+        pixels = _averaged(pixels, every) if pixels.dtype == np.uint8 else pixels[::every, ::every]
+    height, width = pixels.shape[:2]
+    stamp = stamp_ns(message.header.stamp)
+    data = encode_image(kind, width, height, pixels, float(stamp - options.origin), every)
+    return Drawing(message.header.frame_id, stamp, data, placed=False)
+
+
+def _averaged(pixels: Pixels, every: int) -> Pixels:
+    """Return the averages of squares of pixels, so that thin lines do not vanish."""
+    height, width = (length // every * every for length in pixels.shape[:2])
+    if not height or not width:
+        return pixels[::every, ::every]
+    total = np.zeros((height // every, width // every, *pixels.shape[2:]), np.uint32)
+    for row in range(every):
+        for column in range(every):
+            total += pixels[row:height:every, column:width:every]
+    return (total // every**2).astype(np.uint8)
 
 
 def draw_compressed_image(image: Any, options: Options) -> Drawing:
-    """Draw a CompressedImage that contains JPEG or PNG data, regardless of its format field."""
+    """Draw a CompressedImage that contains JPEG or PNG data, regardless of its format field, or a depth image."""
+    if "compressedDepth" in image.format:
+        return _draw_decoded(image, decode_compressed_depth, options)
     data = np.frombuffer(image.data, np.uint8)
     head = bytes(data[: 1 << 16])
     if not head.startswith((_JPEG, _PNG)):
-        raise CannotDrawError(f"image format {image.format[:40]!r} is not supported. Supported: JPEG, PNG")
+        raise CannotDrawError(f"image format {image.format[:40]!r} is not supported. Supported: {_COMPRESSED_FORMATS}")
+    if is_gray_16(head):  # The browser would reduce it to eight bits.
+        return _draw_decoded(image, lambda _image: decode_gray_png(bytes(data)), options)
     width, height = _size_of_png(head) if head.startswith(_PNG) else _size_of_jpeg(head)
     if width * height > MAX_COMPRESSED_PIXELS or len(data) > MAX_COMPRESSED_BYTES:
         raise CannotDrawError(
@@ -105,13 +118,25 @@ def _options(*, project: bool) -> tuple[Option, ...]:
     needs = "Project"
     return (
         NumberOption("Width", 260.0, 60.0, 1600.0, 20.0, "px"),
+        FlagOption("Normalize Range", True),
+        NumberOption("Min Value", 0.0, -1e9, 1e9, 0.1, needs="!Normalize Range"),
+        NumberOption("Max Value", 1.0, -1e9, 1e9, 0.1, needs="!Normalize Range"),
+        NumberOption("Median window", 5.0, 1.0, 50.0, 1.0, needs="Normalize Range"),
         FlagOption("Project", project, label="Project the scene"),
         FlagOption("Project Frames", True, label="Frames", needs=needs),
         FlagOption("Project Clouds", True, label="Clouds", needs=needs),
         FlagOption("Project Shapes", True, label="Markers and paths", needs=needs),
+        FlagOption("Project Detections", True, label="Detections"),
+        NumberOption("Far Plane Distance", 100.0, 0.01, 1e6, 10.0, "m", needs=needs),
         ChoiceOption("Rectified", "By topic", ("By topic", "Yes", "No"), needs=needs),
     )
 
+
+_GUIDE = (
+    "Image with one to four channels of 8 or 16 bits or floating-point numbers (mono, rgb, bgr, Bayer, yuv422, nv12, "
+    "nv21, depths), CompressedImage as JPEG, PNG or compressedDepth (PNG, RVL); values have a normalized range; the "
+    "wheel zooms, dragging pans, and the pointer shows the value of a pixel"
+)
 
 IMAGE = DisplayRow(
     name="Image",
@@ -123,6 +148,7 @@ IMAGE = DisplayRow(
     automatic=False,
     large_in_replay=True,
     has_surfaces=False,
+    guide=_GUIDE,
 )
 CAMERA = DisplayRow(
     name="Camera",
@@ -132,4 +158,6 @@ CAMERA = DisplayRow(
     automatic=False,
     large_in_replay=True,
     has_surfaces=False,
+    guide="Image and CompressedImage with the scene above them: an Image with the option *Project the scene*",
+    lacks="maps, the faces of robots, and Overlay Alpha: the scene is drawn as points and lines above the image",
 )

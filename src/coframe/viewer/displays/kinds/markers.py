@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from time import monotonic
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypedDict
 
 import numpy as np
@@ -19,13 +20,13 @@ from coframe.viewer.displays._drawing import (
     pose_row,
     rgba_of,
 )
-from coframe.viewer.displays._renderers import MeshUrl, NewMessages
+from coframe.viewer.displays._renderers import MeshUrl, Resources, UnfinishedError
 from coframe.viewer.displays._row import DisplayRow
 from coframe.viewer.protocol.common import PayloadRows  # noqa: TC001 - the protocol evaluates annotations
 from coframe.viewer.protocol.encoding import encode_shapes
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -37,8 +38,13 @@ _WITH_POINTS = {4, 5, 6, 7, 8}  # lines, cubes, spheres and points, whose positi
 _ADD, _DELETE, _DELETE_ALL = 0, 2, 3
 MAX_MARKERS = 20_000
 MAX_NUMBERS = 10_000_000
-# How many earlier messages determine the markers after a jump in time.
-MAX_EARLIER_MESSAGES = 500
+MAX_STAMPS = 250
+"""More different stamps of the markers of one frame are rounded, because each of them needs its own transform."""
+_ROUNDING_STEPS = 40  # halvings of the time by which stamps are rounded
+# After a jump in time, all earlier messages determine the markers. They are read in steps of this many seconds.
+_STEP = 0.2
+# The markers after every n-th message are remembered for jumps back.
+_SNAPSHOT_EVERY, MAX_SNAPSHOTS = 200, 100
 _MIN_LARGE_MARKER = MAX_NUMBERS // MAX_MARKERS  # Markers that are not larger cannot exceed the limit together.
 
 
@@ -94,9 +100,13 @@ class MarkerSet:
         self._shown: dict[tuple[str, int], _Shown] = {}
         self._drawn: dict[_Group, tuple[tuple[int, ...], Drawing]] = {}
 
-    def clear(self) -> None:
-        """Remove all markers."""
-        self._shown.clear()
+    def snapshot(self) -> dict[tuple[str, int], _Shown]:
+        """Return the current markers."""
+        return dict(self._shown)
+
+    def restore(self, snapshot: Mapping[tuple[str, int], _Shown]) -> None:
+        """Replace all markers by those of a snapshot."""
+        self._shown = dict(snapshot)
 
     def apply(self, message: Any, time: int) -> None:
         """Execute the actions of a Marker or MarkerArray received at a time in nanoseconds."""
@@ -107,6 +117,8 @@ class MarkerSet:
             elif marker.action == _DELETE:
                 self._shown.pop(key, None)
             elif marker.action == _ADD:
+                if key not in self._shown and len(self._shown) >= MAX_MARKERS:
+                    self.expire(time)
                 if key not in self._shown and len(self._shown) >= MAX_MARKERS:
                     raise CannotDrawError(f"too many markers: the viewer draws at most {MAX_MARKERS}")
                 size = (
@@ -131,8 +143,9 @@ class MarkerSet:
     def draw(self, options: Options) -> list[Drawing]:
         """Return one drawing per group; unchanged groups return the same drawing as before."""
         groups: dict[_Group, list[Any]] = {}
+        rounded = _rounded_groups({shown.group for shown in list(self._shown.values())})
         for shown in self._shown.values():
-            groups.setdefault(shown.group, []).append(shown.marker)
+            groups.setdefault(rounded.get(shown.group, shown.group), []).append(shown.marker)
         drawn = {}
         for group, markers in groups.items():
             members = tuple(id(marker) for marker in markers)
@@ -174,24 +187,88 @@ class MarkerSet:
 class MarkerRenderer:
     """Maintains the set of markers that the messages define."""
 
-    def __init__(self, messages: TopicMessages, options: Options, mesh_url: MeshUrl) -> None:
-        self._new_messages = NewMessages(messages, MAX_EARLIER_MESSAGES)
+    def __init__(self, messages: TopicMessages, options: Options, resources: Resources) -> None:
+        self._messages = messages
         self._options = options
-        self._set = MarkerSet(mesh_url)
+        self._set = MarkerSet(resources.mesh_url)
+        self._applied = 0  # The key of the last message in the set.
+        self._snapshots: list[tuple[int, dict[tuple[str, int], _Shown]]] = [(0, {})]
+        self._every = _SNAPSHOT_EVERY
 
-    def draw(self, message: StampedMessage, time: int) -> list[Drawing]:
+    def draw(self, message: StampedMessage, time: int, at: int) -> list[Drawing]:
         """Return one drawing per group of visible markers."""
-        continues, new = self._new_messages.until(message)
-        if not continues:
-            self._set.clear()
-        for one in new:
-            self._set.apply(one.read(), one.time)
+        del at
+        if message.key < self._applied:
+            self._go_back(message.key)
+        self._apply_until(message)
         self._set.expire(time)
         return self._set.draw(self._options)
 
-    def has_expired(self, time: int) -> bool:
+    def has_changed(self, time: int, at: int) -> bool:
         """Return whether the lifetime of a marker has expired."""
+        del at
         return self._set.has_expired(time)
+
+    def _go_back(self, key: int) -> None:
+        self._applied, markers = next(one for one in reversed(self._snapshots) if one[0] <= key)
+        self._set.restore(markers)
+
+    def _apply_until(self, message: StampedMessage) -> None:
+        new = self._messages.after(self._applied, message.key) or [message]
+        deadline = monotonic() + _STEP
+        for count, one in enumerate(new):
+            if count and monotonic() > deadline:
+                raise UnfinishedError(f"reading earlier markers: {len(new) - count} messages left")
+            self._set.apply(one.read(), one.time)
+            self._applied = one.key
+            if one.key >= self._snapshots[-1][0] + self._every:
+                self._take_snapshot(one)
+
+    def _take_snapshot(self, message: StampedMessage) -> None:
+        self._set.expire(message.time)
+        self._snapshots.append((message.key, self._set.snapshot()))
+        if len(self._snapshots) > MAX_SNAPSHOTS:
+            del self._snapshots[1::2]
+            self._every *= 2
+
+
+def _rounded_groups(groups: Iterable[_Group]) -> dict[_Group, _Group]:
+    """Return the groups whose stamps are rounded up to a later one, because there are too many stamps in a frame.
+
+    The stamps of a frame are divided into at most `MAX_STAMPS` intervals; the longest one is as short as possible.
+    """
+    frames: dict[tuple[str, bool], list[int]] = {}
+    for group in groups:
+        frames.setdefault((group.frame, group.locked), []).append(group.stamp)
+    rounded = {}
+    for (frame, locked), stamps in frames.items():
+        if len(stamps) > MAX_STAMPS:
+            ordered = np.sort(np.array(stamps, np.int64))
+            ends = _interval_ends(ordered)
+            chosen = ends[np.searchsorted(ends, ordered)]
+            for own, stamp in zip(ordered.tolist(), chosen.tolist(), strict=True):
+                rounded[_Group(frame, own, locked)] = _Group(frame, stamp, locked)
+    return rounded
+
+
+def _interval_ends(stamps: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the last stamps of at most `MAX_STAMPS` intervals that contain all stamps, (N,) in order."""
+    low, high = 0, int(stamps[-1] - stamps[0])
+    ends = stamps[-1:]
+    for _ in range(_ROUNDING_STEPS):
+        if low >= high:
+            break
+        length = (low + high) // 2
+        found: list[int] = []
+        at = 0
+        while at < len(stamps) and len(found) <= MAX_STAMPS:
+            at = int(np.searchsorted(stamps, stamps[at] + length, side="right"))
+            found.append(int(stamps[at - 1]))
+        if len(found) <= MAX_STAMPS:
+            high, ends = length, np.array(found, np.int64)
+        else:
+            low = length + 1
+    return ends
 
 
 def _shown(marker: Any, time: int) -> _Shown:
@@ -246,10 +323,12 @@ MARKER = DisplayRow(
     messages={"visualization_msgs/msg/Marker": MarkerRenderer},
     shapes=(MarkersShape,),
     projected=True,
+    guide="Marker with all types from ARROW to ARROW_STRIP; each namespace has a checkbox",
 )
 MARKER_ARRAY = DisplayRow(
     name="MarkerArray",
     messages={"visualization_msgs/msg/MarkerArray": MarkerRenderer},
     shapes=(MarkersShape,),
     projected=True,
+    guide="MarkerArray, as Marker",
 )

@@ -44,5 +44,6 @@ PATH = DisplayRow(
         NumberOption("Radius", 0.03, 0.0005, 10.0, 0.005, "m"),
     ),
     shapes=(PathShape,),
+    guide="Path as a line, with axes or arrows at its poses",
     projected=True,
 )

@@ -16,7 +16,7 @@ from coframe.viewer.displays._drawing import (
     pose_row,
     pose_rows,
 )
-from coframe.viewer.displays._renderers import MeshUrl, NewMessages, draw_each_message
+from coframe.viewer.displays._renderers import NewMessages, Resources, draw_each_message
 from coframe.viewer.displays._row import ChoiceOption, ColorOption, DisplayRow, FlagOption, NumberOption
 from coframe.viewer.protocol.common import PayloadRows  # noqa: TC001 - the protocol evaluates annotations
 
@@ -81,14 +81,14 @@ def draw_odometry(message: Any, trail: Sequence[PoseRow], options: Options) -> D
 class OdometryRenderer:
     """Draws the last poses as a trail."""
 
-    def __init__(self, messages: TopicMessages, options: Options, _mesh_url: MeshUrl) -> None:
+    def __init__(self, messages: TopicMessages, options: Options, _resources: Resources) -> None:
         self._new_messages = NewMessages(messages, options.keep)
         self._options = options
         self._trail: deque[PoseRow] = deque(maxlen=options.keep)
 
-    def draw(self, message: StampedMessage, time: int) -> list[Drawing]:
+    def draw(self, message: StampedMessage, time: int, at: int) -> list[Drawing]:
         """Return the drawing of the message and of the trail that ends there."""
-        del time
+        del time, at
         continues, new = self._new_messages.until(message)
         if not continues:
             self._trail.clear()
@@ -96,9 +96,9 @@ class OdometryRenderer:
             self._trail.append(pose_row(one.read().pose.pose))
         return [draw_odometry(message.read(), list(self._trail), self._options)]
 
-    def has_expired(self, time: int) -> bool:
+    def has_changed(self, time: int, at: int) -> bool:
         """Return False."""
-        del time
+        del time, at
         return False
 
 
@@ -124,7 +124,7 @@ _SHAPE = (
 )
 _COVARIANCE_KEY = "Covariance/Value"
 _COVARIANCE = (
-    FlagOption(_COVARIANCE_KEY, False, label="Covariance"),
+    FlagOption(_COVARIANCE_KEY, True, label="Covariance"),
     FlagOption("Covariance/Position/Value", True, label="Position", needs=_COVARIANCE_KEY),
     NumberOption("Covariance/Position/Scale", 1.0, 0.0, 1000.0, 1.0, label="Position Scale", needs=_COVARIANCE_KEY),
     ColorOption("Covariance/Position/Color", "#cc33cc", label="Position Color", needs=_COVARIANCE_KEY),
@@ -142,6 +142,7 @@ _COVARIANCE = (
 
 POSE = DisplayRow(
     name="Pose",
+    guide="PoseStamped as an arrow or axes",
     messages={"geometry_msgs/msg/PoseStamped": draw_each_message(draw_pose)},
     options=_SHAPE,
     shapes=(PosesShape,),
@@ -149,6 +150,7 @@ POSE = DisplayRow(
 )
 POSE_ARRAY = DisplayRow(
     name="PoseArray",
+    guide="PoseArray as arrows or axes",
     messages={"geometry_msgs/msg/PoseArray": draw_each_message(draw_pose_array)},
     options=_SHAPE,
     shapes=(PosesShape,),
@@ -157,6 +159,8 @@ POSE_ARRAY = DisplayRow(
 POSE_WITH_COVARIANCE = DisplayRow(
     name="PoseWithCovariance",
     rank=3,
+    guide="PoseWithCovarianceStamped; the covariance is an ellipsoid of one standard deviation and a cone around the x axis",
+    lacks="Color Style *Unique* of the orientation, which is drawn as one cone",
     messages={"geometry_msgs/msg/PoseWithCovarianceStamped": draw_each_message(draw_pose)},
     options=(*_SHAPE, *_COVARIANCE),
     shapes=(PosesShape,),
@@ -165,6 +169,7 @@ POSE_WITH_COVARIANCE = DisplayRow(
 ODOMETRY = DisplayRow(
     name="Odometry",
     rank=3,
+    guide="Odometry with a trail of the poses that differ by the tolerances, and covariances as PoseWithCovariance",
     messages={"nav_msgs/msg/Odometry": OdometryRenderer},
     options=(*_SHAPE, NumberOption("Keep", 100.0, 1.0, 1000.0, 10.0, sets="keep"), *_COVARIANCE),
     shapes=(OdometryShape,),

@@ -44,6 +44,11 @@ def draw_range(message: Any, options: Options) -> Drawing:
 RANGE = DisplayRow(
     name="Range",
     messages={"sensor_msgs/msg/Range": draw_each_message(draw_range)},
-    options=(ColorOption("Color", "#ffffff"), NumberOption("Alpha", 0.5, 0.0, 1.0, 0.05)),
+    options=(
+        ColorOption("Color", "#ffffff"),
+        NumberOption("Alpha", 0.5, 0.0, 1.0, 0.05),
+        NumberOption("Buffer Length", 1.0, 1.0, 1000.0, 1.0, sets="history"),
+    ),
     shapes=(RangeShape,),
+    guide="Range as a cone",
 )

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Zooms and pans an image inside its frame: wheel, drag, and double-click for the whole image. */
+
+const MAX_ZOOM = 64;
+const ZOOM_PER_PIXEL = 0.002;
+
+export class ImageZoom {
+  /** 1 shows the whole image. */
+  factor = 1;
+  /** The position of the image's top left corner, in CSS pixels of the frame. */
+  private left = 0;
+  private top = 0;
+
+  /**
+   * @param frame The element that shows a part of the content.
+   * @param content The element that is zoomed, which fills the frame at first.
+   */
+  constructor(
+    private readonly frame: HTMLElement,
+    private readonly content: HTMLElement,
+    private readonly changed: () => void,
+  ) {
+    frame.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
+    frame.addEventListener("pointerdown", (event) => {
+      if (this.factor > 1) frame.setPointerCapture(event.pointerId);
+    });
+    frame.addEventListener("pointermove", (event) => {
+      if (frame.hasPointerCapture(event.pointerId)) this.move(event.movementX, event.movementY);
+    });
+    frame.addEventListener("dblclick", () => this.reset());
+  }
+
+  reset(): void {
+    [this.factor, this.left, this.top] = [1, 0, 0];
+    this.apply();
+  }
+
+  private wheel(event: WheelEvent): void {
+    event.preventDefault();
+    const bounds = this.frame.getBoundingClientRect();
+    const [x, y] = [event.clientX - bounds.left, event.clientY - bounds.top];
+    const factor = Math.max(1, Math.min(MAX_ZOOM, this.factor * Math.exp(-event.deltaY * ZOOM_PER_PIXEL)));
+    // The point under the pointer stays where it is.
+    this.left = x - ((x - this.left) * factor) / this.factor;
+    this.top = y - ((y - this.top) * factor) / this.factor;
+    this.factor = factor;
+    this.apply();
+  }
+
+  private move(x: number, y: number): void {
+    this.left += x;
+    this.top += y;
+    this.apply();
+  }
+
+  private apply(): void {
+    const { clientWidth: width, clientHeight: height } = this.frame;
+    this.left = Math.min(0, Math.max(width * (1 - this.factor), this.left));
+    this.top = Math.min(0, Math.max(height * (1 - this.factor), this.top));
+    this.content.style.transform =
+      this.factor === 1 ? "" : `translate(${this.left}px, ${this.top}px) scale(${this.factor})`;
+    this.frame.classList.toggle("zoomed", this.factor > 1);
+    this.changed();
+  }
+}
