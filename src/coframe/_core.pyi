@@ -681,6 +681,12 @@ def transform_fields(pose: Sequence[float], fields: Sequence[Sequence[Any]], thr
         threads: Number of threads.
     """
 
+def unfilter_png(rows: Any, pixels: Any, row_bytes: int, pixel_bytes: int) -> bool:
+    """Undo the filters of PNG rows into `pixels`; return whether all filters are known."""
+
+def decode_rvl(words: Any, depths: Any) -> bool:
+    """Decode an RVL depth image, uint32 words, to uint16 `depths`; return whether the data is complete."""
+
 def deskew_fields(
     buffer: Buffer,
     target: str,

@@ -337,7 +337,7 @@ def header(made, stamp=BEGIN + SECOND // 2):
     return made
 
 
-def sample(ros_type):  # noqa: PLR0911, PLR0912 - one per kind of message
+def sample(ros_type):  # noqa: PLR0911 - one per kind of message
     """Return a message of a type with something to draw, and the kind of its drawing."""
     made = find(ros_type)()
     name = ros_type.rsplit("/", 1)[1]

@@ -44,7 +44,7 @@ def decode_compressed_depth(image: Any) -> NDArray[Any]:
     if not image.format.lstrip().startswith("32FC1"):
         return stored
     with np.errstate(divide="ignore", invalid="ignore"):
-        depths = np.float32(quantum) / (stored.astype(np.float32) - np.float32(offset))
+        depths: NDArray[Any] = np.float32(quantum) / (stored.astype(np.float32) - np.float32(offset))
     depths[stored == 0] = np.nan
     return depths
 

@@ -84,7 +84,8 @@ def _samples(image: Any, encoding: encodings.Encoding, *, nv: bool) -> Pixels:
         raise DecodeError(f"a {image.encoding} image of {width} x {height} pixels must have an even size")
     shape = (rows, width, encoding.channels) if encoding.channels > 1 else (rows, width)
     strides = (step, encoding.channels * dtype.itemsize, dtype.itemsize)[: len(shape)]
-    return np.ndarray(shape, dtype, buffer=data[: rows * step].data, strides=strides)
+    samples: Pixels = np.ndarray(shape, dtype, buffer=data[: rows * step].data, strides=strides)
+    return samples
 
 
 def _measured(samples: Pixels) -> Pixels:
@@ -123,13 +124,14 @@ def _demosaic(raw: Pixels, pattern: str) -> Pixels:
     for index, own in enumerate(pattern):
         row, column = divmod(index, 2)
         at = (slice(row, None, 2), slice(column, None, 2))
-        colors[(*at, "rgb".index(own))] = raw[at]
+        target = colors[at]
+        target[:, :, "rgb".index(own)] = raw[at]
         if own == "g":
-            colors[(*at, "rgb".index(pattern[2 * row + 1 - column]))] = across[at]
-            colors[(*at, "rgb".index(pattern[2 * (1 - row) + column]))] = along[at]
+            target[:, :, "rgb".index(pattern[2 * row + 1 - column])] = across[at]
+            target[:, :, "rgb".index(pattern[2 * (1 - row) + column])] = along[at]
         else:
-            colors[(*at, 1)] = cross[at]
-            colors[(*at, 2 - "rgb".index(own))] = corners[at]
+            target[:, :, 1] = cross[at]
+            target[:, :, 2 - "rgb".index(own)] = corners[at]
     return colors
 
 
@@ -157,4 +159,5 @@ def _from_yuv(bright: Pixels, chroma: Pixels) -> Pixels:
     y = 1.164383 * np.maximum(bright.astype(np.float32) - 16.0, 0.0)
     u, v = (chroma[:, :, index].astype(np.float32) - 128.0 for index in (0, 1))
     colors = np.stack([y + 1.596027 * v, y - 0.812968 * v - 0.391762 * u, y + 2.017232 * u], axis=-1)
-    return (np.clip(colors, 0.0, 255.0) + 0.5).astype(np.uint8)
+    rounded: Pixels = (np.clip(colors, 0.0, 255.0) + 0.5).astype(np.uint8)
+    return rounded

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Fixtures for tests in a real browser, with the real server and the running demo."""
 
+import contextlib
 import json
 import os
 import signal
@@ -170,6 +171,22 @@ class Page:
     def seconds(self):
         """Return the time of the playhead in seconds."""
         return self.evaluate("coframe.time") / SECOND
+
+
+@pytest.fixture(scope="package")
+def shared_page(browser):
+    """Return a function that opens a page for several tests, as a context manager; it must log no errors."""
+
+    @contextlib.contextmanager
+    def start(url):
+        context = browser.new_context(viewport={"width": 1200, "height": 760})
+        page = Page(context, url)
+        yield page
+        context.close()
+        assert not page.foreign_urls
+        assert not page.errors
+
+    return start
 
 
 @pytest.fixture

@@ -32,7 +32,7 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
   private readonly caption = h("figcaption");
   private readonly overlay = new ImageOverlay();
   /** The detected objects above the image. */
-  private readonly marks = h("canvas", { class: "projection", aria: { hidden: "true" } });
+  private readonly marks = h("canvas", { class: "marks", aria: { hidden: "true" } });
   private readonly layers = h("div", { class: "layers" }, this.canvas, this.marks);
   private readonly picture = h("div", { class: "picture" }, this.layers);
   private readonly zoom = new ImageZoom(this.picture, this.layers, () => this.updateCaption());

@@ -5,7 +5,8 @@ import type { DisplayOptions } from "./protocol";
 
 /**
  * An option of a display. `key` is its path in an .rviz file, `needs` the conditions without which the option has no
- * effect and is hidden (see `coframe.viewer.displays._row`). `sets` is the field of the subscription that it sets; "meanings" are the values of choices.
+ * effect and is hidden (see `coframe.viewer.displays._row`). `sets` is the field of the subscription that it sets;
+ * "meanings" are the values of choices.
  */
 export type OptionSpec = {
   readonly key: string;

@@ -186,7 +186,8 @@ class JointMimic(TypedDict):
 class RobotJoint(TypedDict):
     """A joint; ``origin`` is the pose of its child link relative to its parent link at position 0.
 
-    ``effort`` is the limit in newtons or newton meters. ``value`` is the default position, in radians or meters, of a joint that a slider can move; None for other joints.
+    ``effort`` is the limit in newtons or newton meters. ``value`` is the default position, in radians or meters, of a
+    joint that a slider can move; None for other joints.
     """
 
     name: str

@@ -56,7 +56,10 @@ AXES = DisplayRow(
 
 ROBOT_MODEL = DisplayRow(
     name="RobotModel",
-    guide="from `/robot_description`, the topics in a `.rviz` file, or a file; with textures from DAE, OBJ, GLB and URDF",
+    guide=(
+        "from `/robot_description`, the topics in a `.rviz` file, or a file; "
+        "with textures from DAE, OBJ, GLB and the URDF"
+    ),
     lacks="Mass Properties, the list of links, and Update Interval: the page draws each frame update",
     options=(
         FlagOption("Visual Enabled", True),

@@ -86,7 +86,7 @@ def _meters(image: Any) -> NDArray[np.float32]:
         raise CannotDrawError(f"{kind[:40]!r} is not an encoding of depths. Depth images are 16UC1 or 32FC1")
     if values.dtype == np.float32:
         return values
-    depths = values.astype(np.float32) * np.float32(_MILLIMETER)
+    depths: NDArray[np.float32] = (values * np.float32(_MILLIMETER)).astype(np.float32)
     depths[values == 0] = np.nan
     return depths
 

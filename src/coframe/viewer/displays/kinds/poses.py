@@ -159,7 +159,10 @@ POSE_ARRAY = DisplayRow(
 POSE_WITH_COVARIANCE = DisplayRow(
     name="PoseWithCovariance",
     rank=3,
-    guide="PoseWithCovarianceStamped; the covariance is an ellipsoid of one standard deviation and a cone around the x axis",
+    guide=(
+        "PoseWithCovarianceStamped; the covariance is an ellipsoid of one standard deviation "
+        "and a cone around the x axis"
+    ),
     lacks="Color Style *Unique* of the orientation, which is drawn as one cone",
     messages={"geometry_msgs/msg/PoseWithCovarianceStamped": draw_each_message(draw_pose)},
     options=(*_SHAPE, *_COVARIANCE),
