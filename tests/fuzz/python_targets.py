@@ -93,7 +93,7 @@ def displays() -> Callable[[bytes], object]:
     from coframe.errors import DecodeError
     from coframe.messages import deserialize, find
     from coframe.viewer.displays import CannotDrawError, Options
-    from coframe.viewer.displays._renderers import Resources
+    from coframe.viewer.displays.resources import Resources
     from coframe.viewer.displays.rows import DISPLAY_OF_TYPE, make_renderer
 
     types = sorted(DISPLAY_OF_TYPE)

@@ -20,8 +20,9 @@ import recordings
 import coframe
 from coframe.messages import find, serialize
 from coframe.viewer.displays import CannotDrawError, Options
-from coframe.viewer.displays._renderers import Resources, draw_each_message
+from coframe.viewer.displays._renderers import draw_each_message
 from coframe.viewer.displays._row import DisplayRow, NumberOption
+from coframe.viewer.displays.resources import Resources
 from coframe.viewer.displays.rows import DISPLAY_OF_TYPE, DISPLAYS, MAX_AUTOMATIC_DISPLAYS, displayable
 from coframe.viewer.replay.export import export_replay
 from coframe.viewer.robots.robot_message import make_mesh_table

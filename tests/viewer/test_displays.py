@@ -338,7 +338,7 @@ def test_the_colors_of_a_cloud(decoded):
     assert shown.points.tolist() == [[1.0, 0.0, 2.0]], "points that are not finite are omitted"
     assert shown.colors.tolist() == [[0xFF, 0x80, 0x01, 255]]
     for color_by, expected in (("intensity", [5.0]), ("axis", [2.0]), ("distance", [5**0.5])):
-        shown = decoded(draw_cloud(made, Options(color_by=color_by, axis=2)).data)
+        shown = decoded(draw_cloud(made, Options(color_by=color_by, axis="z")).data)
         np.testing.assert_allclose(shown.scalars, expected)
     assert decoded(draw_cloud(made, Options(color_by="flat")).data).scalars is None
 

@@ -13,8 +13,8 @@ from coframe.viewer._state import FRAME_TIMEOUT
 from coframe.viewer.clients._panels import ClientPanels
 from coframe.viewer.clients._playback_clock import PlaybackClock
 from coframe.viewer.clients._scripting import SentRecords
-from coframe.viewer.displays._renderers import Resources
 from coframe.viewer.displays.display import Display
+from coframe.viewer.displays.resources import Resources
 from coframe.viewer.displays.rows import row_of
 from coframe.viewer.protocol.requests import BadRequestError
 

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from coframe.errors import CoframeError
@@ -11,44 +10,20 @@ from coframe.errors import CoframeError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe.connection.connection import Connection
     from coframe.viewer.displays._drawing import Drawing, Options
+    from coframe.viewer.displays.resources import Resources
     from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 
 __all__ = [
-    "MeshUrl",
     "NewMessages",
     "Renderer",
     "RendererFactory",
-    "Resources",
     "UnfinishedError",
     "draw_each_message",
 ]
 
-MeshUrl: TypeAlias = "Callable[[str], tuple[str | None, str | None]]"
 RendererFactory: TypeAlias = "Callable[[TopicMessages, Options, Resources], Renderer]"
 """Returns a renderer for the messages on a topic."""
-
-
-def _no_mesh(_reference: str) -> tuple[str | None, str | None]:
-    return None, "meshes are not available here"
-
-
-@dataclass
-class Resources:
-    """What renderers need besides the messages on their topic.
-
-    Attributes:
-        topic: The name of the topic.
-        mesh_url: Returns the URL of a marker's mesh, or the reason why there is none.
-        others: The messages on the display's other topics, as far as these exist.
-        connection: The connection to the ROS graph, or None if there is none.
-    """
-
-    topic: str = ""
-    mesh_url: MeshUrl = _no_mesh
-    others: dict[str, TopicMessages] = field(default_factory=dict)
-    connection: Connection | None = None
 
 
 class UnfinishedError(CoframeError, RuntimeError):

@@ -30,7 +30,8 @@ if TYPE_CHECKING:
 
     from coframe.buffer.buffer import Buffer
     from coframe.viewer.displays import Drawing, Options
-    from coframe.viewer.displays._renderers import Renderer, Resources
+    from coframe.viewer.displays._renderers import Renderer
+    from coframe.viewer.displays.resources import Resources
     from coframe.viewer.protocol.common import DisplayState
     from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 
@@ -119,7 +120,7 @@ class _Layer(NamedTuple):
 
     @property
     def size(self) -> int:
-        """The memory that the drawings take in the page, in bytes."""
+        """The memory that the drawings use in the page, in bytes."""
         return sum(entry.size for entry in self.entries)
 
     @property

@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from coframe.viewer.displays._drawing import Drawing, Options
-    from coframe.viewer.displays._renderers import Renderer, Resources
+    from coframe.viewer.displays._renderers import Renderer
+    from coframe.viewer.displays.resources import Resources
     from coframe.viewer.protocol.client_messages import DisplayOptions
     from coframe.viewer.sources.topic_messages import TopicMessages
 

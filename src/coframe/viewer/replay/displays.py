@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
-from coframe.viewer.displays._renderers import Resources
 from coframe.viewer.displays.display import Display
+from coframe.viewer.displays.resources import Resources
 from coframe.viewer.displays.rows import DISPLAYS, row_of
 from coframe.viewer.protocol.encoding import relative_to
 from coframe.viewer.protocol.replay_block import ReplayDisplayBlock
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 
     from coframe.buffer.buffer import Buffer
     from coframe.viewer.displays import Options
-    from coframe.viewer.displays._row import DisplayRow
     from coframe.viewer.protocol.common import DisplayState
     from coframe.viewer.sources.topic_messages import TopicMessages
 
@@ -120,7 +119,11 @@ def record_displays(
     left = MAX_BYTES
     for index in order:
         room = left if index == order[-1] else left // 2
-        recorder = _DisplayRecorder(index, *known[index], messages, progress)
+        display, row = known[index]
+        wanted = row.other_topics(display.topic, display.options)
+        others = {topic: messages[topic] for topic in wanted if topic in messages}
+        resources = Resources(display.topic, _no_mesh, others)
+        recorder = _DisplayRecorder(index, display, row.name, messages[display.topic], resources, progress)
         recorder.record(replay_times, room)
         left -= recorder.size
         blocks[index] = recorder.block()
@@ -148,17 +151,16 @@ class _DisplayRecorder:
         self,
         number: int,
         display: ReplayDisplay,
-        row: DisplayRow,
-        messages: Mapping[str, TopicMessages],
+        name: str,
+        messages: TopicMessages,
+        resources: Resources,
         progress: Progress,
     ) -> None:
         self._number = number
         self._topic = display.topic
-        self._messages = messages[display.topic]
-        self._row = row
-        wanted = row.other_topics(display.topic, display.options)
-        others = {topic: messages[topic] for topic in wanted if topic in messages}
-        self._resources = Resources(display.topic, _no_mesh, others)
+        self._name = name
+        self._messages = messages
+        self._resources = resources
         self._progress = progress
         self._options = replace(
             display.options, max_points=min(display.options.max_points, MAX_CLOUD_POINTS), is_replay=True
@@ -196,7 +198,7 @@ class _DisplayRecorder:
         return ReplayDisplayBlock(
             topic=self._topic,
             type=self._messages.type,
-            display=self._row.name,
+            display=self._name,
             color_by=self._options.color_by,
             every=self._every,
             statuses=self._statuses,

@@ -16,7 +16,7 @@ from coframe.viewer.displays.kinds.points import cloud_drawing, cloud_options
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from coframe.viewer.displays._renderers import Resources
+    from coframe.viewer.displays.resources import Resources
     from coframe.viewer.protocol.client_messages import DisplayOptions
     from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 

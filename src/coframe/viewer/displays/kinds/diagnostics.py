@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Any, Literal, TypedDict
 
 from coframe.time import stamp_ns
 from coframe.viewer.displays._drawing import NO_NUMBERS, Drawing, Options, drawing_of_shapes
-from coframe.viewer.displays._renderers import NewMessages, Resources
+from coframe.viewer.displays._renderers import NewMessages
 from coframe.viewer.displays._row import ChoiceOption, DisplayRow, NumberOption
 
 if TYPE_CHECKING:
+    from coframe.viewer.displays.resources import Resources
     from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 
 __all__ = ["DIAGNOSTIC_ARRAY", "DiagnosticItem", "DiagnosticsShape"]

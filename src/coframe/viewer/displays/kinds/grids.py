@@ -11,13 +11,14 @@ import numpy as np
 
 from coframe.time import SECOND, stamp_ns
 from coframe.viewer.displays._drawing import CannotDrawError, Drawing, Options, far_offset, pose_row
-from coframe.viewer.displays._renderers import Resources, UnfinishedError
+from coframe.viewer.displays._renderers import UnfinishedError
 from coframe.viewer.displays._row import ChoiceOption, DisplayRow, FlagOption, NumberOption, TextOption
 from coframe.viewer.protocol.encoding import encode_grid, encode_grid_part
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from coframe.viewer.displays.resources import Resources
     from coframe.viewer.protocol.client_messages import DisplayOptions
     from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 

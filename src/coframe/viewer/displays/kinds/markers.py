@@ -20,7 +20,7 @@ from coframe.viewer.displays._drawing import (
     pose_row,
     rgba_of,
 )
-from coframe.viewer.displays._renderers import MeshUrl, Resources, UnfinishedError
+from coframe.viewer.displays._renderers import UnfinishedError
 from coframe.viewer.displays._row import DisplayRow
 from coframe.viewer.protocol.common import PayloadRows  # noqa: TC001 - the protocol evaluates annotations
 from coframe.viewer.protocol.encoding import encode_shapes
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from coframe.viewer.displays.resources import MeshUrl, Resources
     from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 
 __all__ = ["MARKER", "MARKER_ARRAY", "MarkerItem", "MarkerSet", "MarkersShape"]

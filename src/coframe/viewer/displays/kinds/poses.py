@@ -16,13 +16,14 @@ from coframe.viewer.displays._drawing import (
     pose_row,
     pose_rows,
 )
-from coframe.viewer.displays._renderers import NewMessages, Resources, draw_each_message
+from coframe.viewer.displays._renderers import NewMessages, draw_each_message
 from coframe.viewer.displays._row import ChoiceOption, ColorOption, DisplayRow, FlagOption, NumberOption
 from coframe.viewer.protocol.common import PayloadRows  # noqa: TC001 - the protocol evaluates annotations
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from coframe.viewer.displays.resources import Resources
     from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 
 __all__ = ["ODOMETRY", "POSE", "POSE_ARRAY", "POSE_WITH_COVARIANCE", "OdometryShape", "PosesShape"]

@@ -11,7 +11,7 @@ import numpy as np
 
 from coframe.time import stamp_ns
 from coframe.viewer.displays._drawing import FIXED_FRAME, CannotDrawError, Drawing, Options, finite_all, header_of
-from coframe.viewer.displays._renderers import NewMessages, Resources
+from coframe.viewer.displays._renderers import NewMessages
 from coframe.viewer.displays._row import ColorOption, DisplayRow, FlagOption, NumberOption, TextOption
 from coframe.viewer.protocol.common import PayloadRows  # noqa: TC001 - the protocol evaluates annotations
 from coframe.viewer.protocol.encoding import encode_shapes
@@ -19,6 +19,7 @@ from coframe.viewer.protocol.encoding import encode_shapes
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from coframe.viewer.displays.resources import Resources
     from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 
 __all__ = ["NAV_SAT_FIX", "FixShape"]
