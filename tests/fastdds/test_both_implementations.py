@@ -11,11 +11,12 @@ import pytest
 
 import coframe
 from coframe import _core
-from coframe.messages import find
+from coframe.messages import codec, find
 from coframe.wire import selection
 from coframe.wire.names import Endpoint
 from coframe.wire.participant import Participant
 from coframe.wire.qos import QoS
+from coframe.wire.request_header import RequestHeader, join
 
 STRING = find("std_msgs/msg/String")
 WIRES = ("fastdds", "dds")
@@ -115,6 +116,27 @@ def test_each_reply_reaches_the_client_that_asked(start, calls: int) -> None:
         process.stdin.write("go\n")
         process.stdin.flush()
     assert [process.stdout.readline() for process in clients] == [f"{each} 0 0\n"] * len(clients)
+
+
+def test_the_first_request_of_a_client_reaches_a_server_on_cyclone_dds(domain_id: int, start, eventually) -> None:
+    """Each client sends its request as soon as it has found the server, which may not have found the client yet."""
+    assert start("dds", "server.py", "add").stdout.readline() == "ready\n"
+    add = find("example_interfaces/srv/AddTwoInts")
+    participant = Participant.get(domain_id, "fastdds")
+    try:
+        eventually(lambda: participant.subscribers("/add", kind="request"))
+        for number in range(6):
+            node = participant.add_node("/", f"client_{number}")
+            replies = participant.service_subscription(node, "/add", add.Response, QoS(), "reply")
+            requests = participant.service_publisher(node, "/add", add.Request, QoS(), "request")
+            eventually(lambda requests=requests: requests.matched)
+            header = RequestHeader(requests.client_id, 1)
+            requests.write(join(header, codec.serialize(add.Request(a=number, b=1))))
+            received = []
+            eventually(lambda replies=replies, received=received: received.extend(replies.take_messages()) or received)
+            assert codec.deserialize(received[0].cdr, add.Response).sum == number + 1
+    finally:
+        participant.close()
 
 
 @pytest.mark.parametrize("wire", WIRES)

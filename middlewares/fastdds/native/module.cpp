@@ -335,6 +335,9 @@ void define_writer(nb::module_& module) {
           },
           nb::arg("message"), nb::arg("guid"), nb::arg("sequence"),
           "Send a message with a related sample identity; return its sequence number.")
+      .def(
+          "write_nothing", [](PyWriter& self) { self.native->write_nothing(); }, ReleaseGil(),
+          "Send a message without a payload, which Cyclone DDS acknowledges and delivers to no reader.")
       .def("publish", &publish, nb::arg("codec"), nb::arg("message"),
            "Serialize and send a message; return False if Python code has to serialize it.")
       .def("direct", &direct_function, nb::arg("codec"), nb::arg("closed"), nb::arg("failure"), nb::arg("of_items"),

@@ -120,6 +120,13 @@ std::int64_t Writer::write(std::span<const coframe_part> parts, std::size_t size
   return send(message, related);
 }
 
+void Writer::write_nothing() {
+  if (!has_valid_clock()) throw Error("could not write: messages cannot have the time of the system clock");
+  const std::shared_lock lock(closing_);
+  Outgoing nothing{{}, 0};
+  send(nothing, nullptr);
+}
+
 std::optional<std::int64_t> Writer::send_in_block(std::span<const coframe_part> parts, std::size_t size) {
   const auto sharing = readers_->share();
   if (!sharing) return std::nullopt;

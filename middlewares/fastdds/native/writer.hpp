@@ -29,6 +29,8 @@ class Writer final : dds::DataWriterListener {
   // for less than 4 bytes. `related` is the identity that accompanies requests and replies; it may be null.
   std::int64_t write(std::span<const coframe_part> parts, std::size_t size,
                      const rtps::SampleIdentity* related = nullptr);
+  // Sends a message without a payload. Cyclone DDS acknowledges it, and delivers it to no reader.
+  void write_nothing();
   // Returns whether a message may be written: damaged transforms may not.
   bool accepts(std::span<const coframe_part> parts) const;
 

@@ -42,7 +42,7 @@ _PREFIXES: Final = {
     "FASTRTPS_": "configures nodes on Fast DDS, also those of coframe",
     "FASTDDS_": "configures nodes on Fast DDS, also those of coframe",
     "RMW_FASTRTPS_": "configures nodes on Fast DDS, also those of coframe",
-    "ROS_SECURITY_": "the security of DDS, which coframe has on Fast DDS only",
+    "ROS_SECURITY_": "the security of DDS, which coframe has on Fast DDS only; elsewhere, Enforce is refused",
     "ZENOH_": "no effect on coframe",
     "COFRAME_": "unknown to coframe",
     "CYCLONEDDS_": "no effect on coframe",

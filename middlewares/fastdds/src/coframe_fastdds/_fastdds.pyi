@@ -80,6 +80,9 @@ class Writer(_Endpoint):
     def write_related(self, message: bytes, guid: bytes, sequence: int) -> int:
         """Send a message with a related sample identity; return its sequence number."""
 
+    def write_nothing(self) -> None:
+        """Send a message without a payload, which Cyclone DDS acknowledges and delivers to no reader."""
+
     def publish(self, codec: _core.MessageCodec, message: object) -> bool: ...
     def direct(
         self,

@@ -45,7 +45,8 @@ PLAIN_LATENCY_BUDGET: Final = 1000 * MILLISECOND
 _UNKNOWN: Final = bytes(16)
 _READER_KIND: Final = 0x04  # a bit of the last byte of a reader's GUID
 _PREFIX_SIZE: Final = 12  # bytes of a GUID that identify the participant
-_DISCOVERY: Final = 1.0  # seconds in which the writer of replies of a server is discovered
+_DISCOVERY: Final = 1.0  # seconds in which the writer of replies of a server, or a writer of requests, is discovered
+_DISCOVERY_NS: Final = 1000 * MILLISECOND
 _POLL: Final = 0.001  # seconds
 _NO_NUMBER: Final = 0
 
@@ -155,7 +156,7 @@ class _ServiceReader(native.Reader):
         """Return up to `limit` messages in the header form: bytes, time of publication, the writer's handle."""
         messages = []
         for data, sent, handle, guid, sequence, related, related_sequence in self.take_identified(limit):
-            if (message := self._read(data, guid, sequence, related, related_sequence)) is not None:
+            if data and (message := self._read(data, guid, sequence, related, related_sequence)) is not None:
                 messages.append((message, sent, handle))
         return messages
 
@@ -349,6 +350,7 @@ class RequestWriter(_TwoForms):
         self._replies = names.dds_topic(endpoint.name, "reply")
         self._identity = self.guid if reader is None else reader.guid
         self.client_id = _number_of(self._identity)
+        self._knowing: set[bytes] = set()  # the readers of servers that know the header writer
         self._ready: set[bytes] = set()  # the participants of servers whose replies arrive
 
     def _send(self, header: RequestHeader, cdr: bytes, message: bytes) -> None:
@@ -356,7 +358,9 @@ class RequestWriter(_TwoForms):
         servers = [peers[handle].guid for handle in self.matched_handles() if handle in peers]
         plain = {guid[:_PREFIX_SIZE] for guid in servers if not vendors.uses_request_header(guid)}
         if servers and not plain:
-            self._header_writer().forward(message)
+            writer = self._header_writer()
+            self._wait_until_known(writer, set(servers))
+            writer.forward(message)
             return
         self._wait_for_replies(plain)
         self._pending.send(header, self._identity, lambda: self._plain.write_related(cdr, self._identity, _NO_NUMBER))
@@ -365,6 +369,19 @@ class RequestWriter(_TwoForms):
         """Return True: requests are not replies."""
         del header, writer
         return True
+
+    def _wait_until_known(self, writer: native.Writer, servers: set[bytes]) -> None:
+        """Wait until the readers of servers on Cyclone DDS know the writer.
+
+        A reader is matched here as soon as it is discovered, often before it has discovered the writer. Cyclone DDS
+        drops messages of unknown writers, and acknowledges them later without requesting them: it takes them for
+        the history, which the reader does not want. Therefore a message without a payload is sent first; whoever
+        acknowledges it knows the writer. A server that does not acknowledge it in time is not waited for again.
+        """
+        if not servers <= self._knowing:
+            writer.write_nothing()
+            writer.wait_for_acks(_DISCOVERY_NS)
+            self._knowing = servers
 
     def _wait_for_replies(self, servers: set[bytes]) -> None:
         """Wait until one of these participants can reply: another server may have been found before.

@@ -38,7 +38,10 @@ class DdsMiddleware:
 
     def join(self, domain: int, changed: _core.Event) -> Session:
         """Create a participant in a domain."""
-        from coframe.wire.dds.session import DdsSession  # noqa: PLC0415 - the selection must be cheap
+        from coframe.wire import ros_security  # noqa: PLC0415 - the selection must be cheap
+        from coframe.wire.dds.session import DdsSession  # noqa: PLC0415
+
+        ros_security.report_unsupported("Cyclone DDS")
 
         return DdsSession(domain, changed)
 

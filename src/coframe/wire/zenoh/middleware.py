@@ -40,7 +40,10 @@ class ZenohMiddleware:
     def join(self, domain: int, changed: _core.Event) -> Session:
         """Open a session in a domain."""
         _library.load()
-        from coframe.wire.zenoh._session import ZenohSession  # noqa: PLC0415 - the selection must be cheap
+        from coframe.wire import ros_security  # noqa: PLC0415 - the selection must be cheap
+        from coframe.wire.zenoh._session import ZenohSession  # noqa: PLC0415
+
+        ros_security.report_unsupported("Zenoh")
 
         return ZenohSession(domain, changed)
 
