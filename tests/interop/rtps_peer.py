@@ -134,8 +134,8 @@ class RtpsPeer:
                 self._send(address, prefix, heartbeat, last)
 
     def received_on(self, reader: bytes) -> list[bytes]:
-        """Return the messages that one of its readers was sent."""
-        return [message.data for message in self.received if message.reader in {reader, _UNKNOWN}]
+        """Return the messages that one of its readers was sent. Those without a payload reach no application."""
+        return [message.data for message in self.received if message.data and message.reader in {reader, _UNKNOWN}]
 
     def _next_count(self) -> int:
         self._count += 1

@@ -375,7 +375,7 @@ class RequestWriter(_TwoForms):
 
         A reader is matched here as soon as it is discovered, often before it has discovered the writer. Cyclone DDS
         drops messages of unknown writers, and acknowledges them later without requesting them: it takes them for
-        the history, which the reader does not want. Therefore a message without a payload is sent first; whoever
+        the history, which the reader does not want. Therefore a message without a payload is sent first: a reader that
         acknowledges it knows the writer. A server that does not acknowledge it in time is not waited for again.
         """
         if not servers <= self._knowing:
