@@ -88,7 +88,7 @@ def stamp_ns(stamp: StampLike) -> int:
         if stamp.tzinfo is None:
             raise ValueError(f"the datetime {stamp} has no time zone. Give it one, such as datetime.timezone.utc.")
         return _timedelta_ns(stamp - datetime.datetime.fromtimestamp(0, datetime.timezone.utc))
-    return _in_range(_number_ns(stamp, "a stamp", "int nanoseconds, numpy.datetime64, datetime or a Time"))
+    return _check_range(_number_to_ns(stamp, "a stamp", "int nanoseconds, numpy.datetime64, datetime or a Time"))
 
 
 def duration_ns(duration: DurationLike) -> int:
@@ -109,7 +109,7 @@ def duration_ns(duration: DurationLike) -> int:
         1500000000
     """
     if isinstance(duration, str):
-        return _in_range(_parse_duration(duration))
+        return _check_range(_parse_duration(duration))
     if isinstance(duration, datetime.timedelta):
         return _timedelta_ns(duration)
     if isinstance(duration, np.timedelta64):
@@ -118,8 +118,8 @@ def duration_ns(duration: DurationLike) -> int:
         return int(duration.astype("timedelta64[ns]").astype(np.int64))
     accepted = 'a string such as "100ms", int nanoseconds, timedelta or a Duration'
     if isinstance(duration, float):
-        raise TypeError(f"a duration must be {accepted}, not float. {_in_units(duration)}")
-    nanoseconds = _in_range(_number_ns(duration, "a duration", accepted))
+        raise TypeError(f"a duration must be {accepted}, not float. {_unit_hint(duration)}")
+    nanoseconds = _check_range(_number_to_ns(duration, "a duration", accepted))
     if (
         0 < nanoseconds < MIN_INT_NANOSECONDS
         and isinstance(duration, SupportsIndex)
@@ -146,14 +146,14 @@ def duration_seconds(duration: DurationLike | None) -> float | None:
     return None if duration is None else duration_ns(duration) / SECOND
 
 
-def _in_units(seconds: float) -> str:
+def _unit_hint(seconds: float) -> str:
     """Return how to write a duration that was given as a float, which probably means seconds."""
     if not math.isfinite(seconds):
         return f"{seconds} is not a duration."
     return f'For {seconds:g} seconds, write "{np.format_float_positional(seconds, trim="-")}s".'
 
 
-def _in_range(nanoseconds: int) -> int:
+def _check_range(nanoseconds: int) -> int:
     if not -(2**63) <= nanoseconds < 2**63:
         raise ValueError(f"{nanoseconds} ns does not fit into 64 bits, which hold 292 years")
     return nanoseconds
@@ -173,7 +173,7 @@ def _timedelta_ns(delta: datetime.timedelta) -> int:
     return delta.days * DAY + delta.seconds * SECOND + delta.microseconds * MICROSECOND
 
 
-def _number_ns(value: Any, name: str, accepted: str) -> int:
+def _number_to_ns(value: Any, name: str, accepted: str) -> int:
     try:
         return int(operator.index(value))
     except TypeError:

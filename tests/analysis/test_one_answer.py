@@ -14,8 +14,8 @@ from coframe.cli.tree_table import tree_table
 from coframe.connection.tf_publishers import TfPublisher
 from coframe.doctor import Observation, diagnose
 from coframe.doctor._transforms import Transforms
-from coframe.tree_drawing import grow
-from coframe.tree_drawing.labels import alarms
+from coframe.tree_drawing import build_forest
+from coframe.tree_drawing.labels import position_problems
 from coframe.viewer.scene.scene import Scene
 from coframe.viewer.scene.statistics import frame_rows
 
@@ -94,8 +94,10 @@ def doctor_edges(world):
 
 
 def frames_drawing(world):
-    forest = grow(world.observation())
-    labeled = {name for name, frame in forest.frames.items() if any("stale" in line for line in alarms(frame))}
+    forest = build_forest(world.observation())
+    labeled = {
+        name for name, frame in forest.frames.items() if any("stale" in line for line in position_problems(frame))
+    }
     assert labeled == {name for name, frame in forest.frames.items() if frame.kind == "stale"}
     return labeled
 

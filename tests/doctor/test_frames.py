@@ -18,7 +18,7 @@ from coframe.cli import frames_screen
 from coframe.cli.app import app
 from coframe.cli.frames_screen import tree, tree_tables
 from coframe.doctor import observe_recording
-from coframe.tree_drawing import grow
+from coframe.tree_drawing import build_forest
 
 
 def frames(*arguments):
@@ -156,7 +156,7 @@ def test_changes_are_highlighted_and_omitted_rows_are_counted(tmp_path):
         run.tf("base_link", f"sensor{number}", START, static=True)
     (seen,) = observe_recording(run.write(tmp_path)).values()
     console = Console(record=True, width=80, force_terminal=True, file=io.StringIO())
-    console.print(tree(grow(seen), {"base_link": "moved"}, most=20))
+    console.print(tree(build_forest(seen), {"base_link": "moved"}, most=20))
     text = console.export_text(styles=True)
     assert re.search(r"\x1b\[7;33mbase_link", text)
     assert "... and 24 more rows" in text
@@ -169,7 +169,7 @@ def test_narrow_screen_shortens_publishers_first(tmp_path):
         seen.transforms, publishers=("/a_node_with_a_name_that_is_longer_than_it_should_be",)
     )
     console = Console(record=True, width=70, file=io.StringIO())
-    console.print(tree(grow(dataclasses.replace(seen, transforms=transforms))))
+    console.print(tree(build_forest(dataclasses.replace(seen, transforms=transforms))))
     base, lidar = (line.split() for line in console.export_text().splitlines()[2:4])
     assert base[1:2] + base[3:] == ["base_link", "50.0", "0.0", "1.0", "1.0", "1.0"]
     assert base[2].startswith("/a_node")
@@ -182,7 +182,7 @@ def test_long_tables_are_printed_in_parts_that_look_like_one(tmp_path, monkeypat
     for number in range(500):
         run.tf("map", f"frame_{number * 37}", START, static=number % 3 > 0)
     (seen,) = observe_recording(run.write(tmp_path)).values()
-    forest = grow(seen)
+    forest = build_forest(seen)
     whole, parts = (Console(file=io.StringIO(), width=width) for _ in range(2))
     whole.print(tree(forest))
     monkeypatch.setattr(frames_screen, "_MAX_TABLE_ROWS", 100)

@@ -6,7 +6,7 @@ from recordings import START
 from runs import MS, SECOND, Run
 
 from coframe.doctor import observe_recording
-from coframe.tree_drawing import grow
+from coframe.tree_drawing import build_forest
 
 HOSTILE = (
     '"quoted" \\ back\\',
@@ -46,7 +46,7 @@ def plant(tmp_path):
 
     def plant(run, **names):
         (observation,) = observe_recording(run.write(tmp_path), **names).values()
-        return grow(observation)
+        return build_forest(observation)
 
     return plant
 

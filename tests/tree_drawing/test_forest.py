@@ -10,7 +10,7 @@ from runs import SECOND, Run
 
 from coframe.doctor import Observation
 from coframe.doctor._transforms import Transforms
-from coframe.tree_drawing import changes, grow
+from coframe.tree_drawing import build_forest, changes
 from coframe.tree_drawing._layout import Box, draw
 
 
@@ -109,7 +109,7 @@ def _drawing_takes(shape, frames):
         zeros, zeros, parents, number, zeros, zeros == 0, values, tuple(map(str, range(frames))), ("",)
     )
     begin = time.process_time()
-    forest = grow(Observation(live=False, start=0, end=SECOND, transforms=transforms))
+    forest = build_forest(Observation(live=False, start=0, end=SECOND, transforms=transforms))
     drawing = draw(forest, "many")
     took = time.process_time() - begin
     assert len(forest.frames) == frames

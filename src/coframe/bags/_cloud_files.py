@@ -16,9 +16,9 @@ from coframe.bags._mcap_writer import McapWriter
 from coframe.errors import RecordingError
 from coframe.messages import find, serialize
 from coframe.messages.definition_texts import definition_of
-from coframe.sensors.point_times import DESKEWED
-from coframe.sensors.rounding import farthest, warn_of_rounding
-from coframe.sensors.thinning import thinned
+from coframe.sensors.point_times import DESKEWED_PREFIX
+from coframe.sensors.rounding import largest_coordinate, warn_of_rounding
+from coframe.sensors.thinning import thin_points
 from coframe.type_names import POINT_CLOUD
 
 if TYPE_CHECKING:
@@ -87,7 +87,7 @@ def write_clouds(
     if voxel is not None and kind != "mcap":
         cloud = source.accumulated(voxel)
         return _write_one(path, kind, [] if cloud is None else [cloud], source, xyz)
-    each = (c if voxel is None else c._replace(points=thinned(c.points, voxel)) for c in source)
+    each = (c if voxel is None else c._replace(points=thin_points(c.points, voxel)) for c in source)
     return _write_one(path, kind, each, source, xyz)
 
 
@@ -122,7 +122,7 @@ def _mark_times(cloud: Cloud) -> Cloud:
     names = cloud.points.dtype.names or ()
     if cloud.used_times not in names:
         return cloud
-    renamed = {cloud.used_times: f"{DESKEWED}{cloud.used_times}"}
+    renamed = {cloud.used_times: f"{DESKEWED_PREFIX}{cloud.used_times}"}
     points = cloud.points.view()
     points.dtype.names = tuple(renamed.get(name, name) for name in names)
     return cloud._replace(points=points)
@@ -133,7 +133,7 @@ def _write_folder(source: _CloudSource, folder: Path, kind: str, voxel: float | 
     name = source.clouds.topic.strip("/").replace("/", "_")
     for cloud in source:
         folder.mkdir(parents=True, exist_ok=True)
-        one = cloud if voxel is None else cloud._replace(points=thinned(cloud.points, voxel))
+        one = cloud if voxel is None else cloud._replace(points=thin_points(cloud.points, voxel))
         with complete_or_absent(folder / f"{name}_{cloud.stamp}.{kind}") as part, part.open("wb") as stream:
             written += _fill(_WRITERS[kind](stream, xyz), [one])
     source.check_not_empty()
@@ -359,7 +359,7 @@ def _cast_coordinates(points: NDArray[Any], kinds: dict[str, str], xyz: str) -> 
     """Call :func:`_cast`, and warn if it rounds coordinates."""
     result = _cast(points, kinds, xyz=xyz)
     position = (result["x"], result["y"], result["z"])
-    warn_of_rounding(farthest(position), position, _FLOAT64_ADVICE)
+    warn_of_rounding(largest_coordinate(position), position, _FLOAT64_ADVICE)
     return result
 
 

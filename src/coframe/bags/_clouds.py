@@ -21,11 +21,11 @@ from coframe.sensors.point_times import (
     UNITS,
     PointTimes,
     UnknownTimesError,
-    implausible,
+    implausible_sweep_reason,
     likely_times,
-    times_in,
+    read_times,
 )
-from coframe.sensors.thinning import thinned
+from coframe.sensors.thinning import thin_points
 from coframe.type_names import LASER_SCAN, POINT_CLOUD
 
 if TYPE_CHECKING:
@@ -215,12 +215,12 @@ class Clouds:
         last, pending, least = None, 0, _MIN_PENDING
         for cloud in self:
             last = cloud
-            kept.append(thinned(cloud.points, voxel))
+            kept.append(thin_points(cloud.points, voxel))
             pending += len(kept[-1])
             if pending > least:
-                kept = [thinned(_concatenate(kept), voxel)]
+                kept = [thin_points(_concatenate(kept), voxel)]
                 pending, least = 0, max(_MIN_PENDING, len(kept[0]))
-        return None if last is None else last._replace(points=thinned(_concatenate(kept), voxel))
+        return None if last is None else last._replace(points=thin_points(_concatenate(kept), voxel))
 
     def _read_messages(self) -> Iterator[RecordedMessage]:
         if self._only_at is None:
@@ -338,9 +338,9 @@ class Clouds:
         reference = "as stamps" if times.absolute else "relative to the message's stamp"
         guessed = ", inferred from the length of the sweep" if times.found else ""
         self._count(self.times_read, f"the field {times.field}, interpreted in {times.unit} {reference}{guessed}")
-        if implausible(times, self._period):
+        if implausible_sweep_reason(times, self._period):
             # One sentence is enough: the sweeps of most messages differ a little.
-            first = next(iter(self.doubts), implausible(times, self._period))
+            first = next(iter(self.doubts), implausible_sweep_reason(times, self._period))
             self._count(self.doubts, first)
 
     def _points(self, message: Any, stamp: int) -> _MeasuredPoints:
@@ -363,7 +363,7 @@ class Clouds:
         if field is None and self._time_field is None and (likely := likely_times(names)):
             self._count(self.not_deskewed, f"{likely[0]!r} may be the time of each point: select it with its unit")
         try:
-            times = times_in(points, stamp, self._time_field, self._time_unit, period=self._period)
+            times = read_times(points, stamp, self._time_field, self._time_unit, period=self._period)
         except UnknownTimesError as error:
             self._count(self.not_deskewed, self._unknown_time_reasons.setdefault(self._time_field, str(error)))
             return None, None

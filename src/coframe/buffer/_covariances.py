@@ -19,7 +19,7 @@ from coframe import _core
 from coframe.buffer._storing import check_frames
 from coframe.errors import InvalidArgumentException
 from coframe.transform.transform import Transform
-from coframe.transform.values import derived, stamps_of, with_body_covariance
+from coframe.transform.values import derive_transform, stamps_of, with_body_covariance
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -243,7 +243,7 @@ def _fill_missing_rows(pose: Transform) -> Transform:
         return pose
     t, q = pose.translation.copy(), pose.quaternion.copy()
     t[missing], q[missing] = 0.0, (0.0, 0.0, 0.0, 1.0)
-    return derived(_read_only(t), _read_only(q), None, None, None)
+    return derive_transform(_read_only(t), _read_only(q), None, None, None)
 
 
 def _read_only(array: Array) -> Array:

@@ -33,7 +33,7 @@ from coframe.cli.recordings import title_of
 from coframe.cli.ros_arguments import NodeCommand, node_identity
 from coframe.connection.listener_config import ListenerConfig
 from coframe.doctor.recorded import observe_chosen
-from coframe.tree_drawing import grow
+from coframe.tree_drawing import build_forest
 from coframe.tree_drawing.graphviz import as_graphviz
 from coframe.tree_drawing.labels import summary
 from coframe.tree_drawing.mermaid import MAX_EDGES, as_markdown, as_mermaid
@@ -129,7 +129,7 @@ def frames(
             choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
             with reading_progress() as progress:
                 observations = observe_chosen(bag, choice, progress=progress)
-            forests = {name: grow(one) for name, one in observations.items()}
+            forests = {name: build_forest(one) for name, one in observations.items()}
             for problem in dict.fromkeys(problem for one in observations.values() for problem in one.unread):
                 warn(problem)
             if not any(forest.frames for forest in forests.values()):
@@ -154,7 +154,7 @@ def frames(
                 click.echo(f"observing for {duration} ...", err=True)
             observer.listen(duration.seconds)
             observer.listen_for_statics()
-            forest = grow(observer.observe())
+            forest = build_forest(observer.observe())
         if not forest.frames:
             fail("no transforms received", "Check that a broadcaster is running in the same ROS domain.")
         _write_or_print({"": forest}, files, as_json, f"live on {config.tf_topic}")

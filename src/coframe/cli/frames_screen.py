@@ -15,7 +15,7 @@ from rich.text import Text
 
 from coframe._output.formatting import count
 from coframe.cli.output import print_bounded
-from coframe.tree_drawing import changes, grow
+from coframe.tree_drawing import build_forest, changes
 from coframe.tree_drawing.labels import summary
 from coframe.tree_drawing.plain import as_data
 from coframe.tree_drawing.text import COLUMNS, rows
@@ -120,7 +120,7 @@ def _steps(observer: LiveObserver) -> Iterator[tuple[Forest, list[Change]]]:
     before: Forest | None = None
     while True:
         observer.listen(_PERIOD)
-        forest = grow(observer.observe())
+        forest = build_forest(observer.observe())
         yield forest, [] if before is None else list(changes(before, forest))
         before = forest
 

@@ -12,7 +12,7 @@ from coframe.doctor.observation import ObservedPoints
 from coframe.errors import CoframeError, DecodeError
 from coframe.sensors import project_scan
 from coframe.sensors.layout import field_of
-from coframe.sensors.point_times import TIME_FIELDS, UnknownTimesError, times_in
+from coframe.sensors.point_times import TIME_FIELDS, UnknownTimesError, read_times
 from coframe.time import SECOND
 from coframe.type_names import LASER_SCAN, POINT_CLOUD
 
@@ -80,7 +80,7 @@ def _cloud(message: Any, stamp: int, period: int) -> tuple[NDArray[np.float64], 
     for name, values in columns.items():
         structured[name] = values
     try:
-        read = times_in(structured, stamp, period=period) if names else None
+        read = read_times(structured, stamp, period=period) if names else None
     except UnknownTimesError:
         read = None
     return points, read.times if read is not None else None

@@ -24,8 +24,8 @@ from coframe.sensors.clouds import (
     thread_count,
 )
 from coframe.sensors.motion import still_frame
-from coframe.sensors.point_times import DESKEWED, TIME_FIELDS
-from coframe.sensors.rounding import farthest, warn_of_rounding
+from coframe.sensors.point_times import DESKEWED_PREFIX, TIME_FIELDS
+from coframe.sensors.rounding import largest_coordinate, warn_of_rounding
 from coframe.time import MICROSECOND, MILLISECOND, SECOND, stamp_ns
 from coframe.transform.values import stamps_of
 
@@ -122,12 +122,12 @@ def deskew(
     if source is None:
         raise TypeError("deskew() needs source=..., the frame of the points")
     if source == target and fixed in {None, target}:
-        raise ValueError(_needs_fixed(target, "a frame that does not move during the measurement"))
+        raise ValueError(_missing_fixed_text(target, "a frame that does not move during the measurement"))
     stamps = point_times(points, times, unit, since)
     if fixed is None:
         _check_target_is_still(core, target, source, stamps)
         fixed = target
-    from_fixed, stamp = _pose_from_fixed(core, points, target, fixed, at)
+    from_fixed, stamp = _look_up_target_pose(core, points, target, fixed, at)
     result = destination(points, out, in_place=in_place, float64=float64)
     if fixed == source:
         move(result, from_fixed, vectors, threads=threads)
@@ -135,33 +135,33 @@ def deskew(
         fields = layout.coordinates(result, vectors)
         arguments = (stamps, from_fixed, fields, on_error == "nan", thread_count(threads))
         _deskew_fields(core, fixed, source, arguments)
-        warn_of_rounding(farthest(fields[0]), fields[0], FLOAT64_ADVICE)
+        warn_of_rounding(largest_coordinate(fields[0]), fields[0], FLOAT64_ADVICE)
     used = {*TIME_FIELDS, times} if isinstance(times, str) else {*TIME_FIELDS}
     if layout.is_message(result):
         result.header.frame_id = target
         if stamp is not None:
             set_stamp(result, stamp)
-        result.fields = [_marked_field(field, used) for field in result.fields]
+        result.fields = [_mark_field(field, used) for field in result.fields]
     elif out is None and not in_place:
-        result = _marked_array(result, used)
+        result = _mark_array(result, used)
     return result  # type: ignore[no-any-return]
 
 
-def _marked_field(field: Any, used: set[str]) -> Any:
+def _mark_field(field: Any, used: set[str]) -> Any:
     if field.name not in used:
         return field
     field = copy.copy(field)
-    field.name = f"{DESKEWED}{field.name}"
+    field.name = f"{DESKEWED_PREFIX}{field.name}"
     return field
 
 
-def _marked_array(points: NDArray[Any], used: set[str]) -> NDArray[Any]:
+def _mark_array(points: NDArray[Any], used: set[str]) -> NDArray[Any]:
     if points.dtype.names is None or points.dtype.fields is None or not used & {*points.dtype.names}:
         return points
     kinds = [points.dtype.fields[name] for name in points.dtype.names]
     dtype = np.dtype(
         {
-            "names": [f"{DESKEWED}{name}" if name in used else name for name in points.dtype.names],
+            "names": [f"{DESKEWED_PREFIX}{name}" if name in used else name for name in points.dtype.names],
             "formats": [kind[0] for kind in kinds],
             "offsets": [kind[1] for kind in kinds],
             "itemsize": points.dtype.itemsize,
@@ -184,10 +184,10 @@ def _check_target_is_still(buffer: _core.Buffer, target: str, source: str, stamp
         hint = (
             f"for example fixed={still!r}, relative to which the sensor moves. fixed={target!r} insists on {target!r}"
         )
-        raise ValueError(_needs_fixed(target, hint))
+        raise ValueError(_missing_fixed_text(target, hint))
 
 
-def _needs_fixed(target: str, frame: str) -> str:
+def _missing_fixed_text(target: str, frame: str) -> str:
     return f"deskew() needs fixed=... for the target {target!r}, which moves with the sensor: {frame}"
 
 
@@ -205,7 +205,7 @@ def point_times(points: Any, times: ArrayLike | str, unit: str | None, since: St
     stamps = stamps_of(values) if unit is None else _nanoseconds(values, _UNITS[unit])
     if since is not None:
         stamps = np.where(stamps == _NO_TIME, _NO_TIME, stamps + stamp_ns(since))
-    grid = layout.grid_of(points)
+    grid = layout.grid_shape(points)
     if stamps.size == math.prod(grid):
         return np.ascontiguousarray(stamps.reshape(-1))
     if len(grid) == 2 and stamps.shape == (grid[1],):
@@ -224,7 +224,7 @@ def _nanoseconds(values: NDArray[Any], scale: int) -> NDArray[np.int64]:
     return np.where(known, np.rint(np.where(known, nanoseconds, 0.0)).astype(np.int64), _NO_TIME)
 
 
-def _pose_from_fixed(
+def _look_up_target_pose(
     buffer: _core.Buffer, points: Any, target: str, fixed: str, at: StampLike | None
 ) -> tuple[tuple[float, float, float, float, float, float, float], int | None]:
     """Return the pose from the fixed frame to the target, and the stamp of the result; None keeps the stamp."""
@@ -248,11 +248,11 @@ def _deskew_fields(buffer: _core.Buffer, fixed: str, source: str, arguments: tup
             # This raises the reason, unless the missing transform was inserted in the meantime.
             buffer.lookup(fixed, source, int(stamps[first]))
         except TransformException as error:
-            raise _error_of_point(error, first, stamps) from error
+            raise _point_error(error, first, stamps) from error
     raise TransformException(f"the transforms from {source!r} to {fixed!r} change faster than points can be deskewed")
 
 
-def _error_of_point(error: TransformException, point: int, stamps: NDArray[np.int64]) -> TransformException:
+def _point_error(error: TransformException, point: int, stamps: NDArray[np.int64]) -> TransformException:
     return type(error).with_details(
         f"point {point} of {len(stamps)}, measured at {int(stamps[point])} ns: {error}",
         target=error.target,

@@ -116,7 +116,7 @@ def project_scan(
     ranges = np.asarray(scan.ranges, dtype=np.float64)
     hits = np.flatnonzero((ranges >= scan.range_min) & (ranges < scan.range_max))
     points = np.zeros((len(hits), 3))
-    directions = _directions(scan.angle_min, scan.angle_increment, len(ranges))
+    directions = _beam_directions(scan.angle_min, scan.angle_increment, len(ranges))
     points[:, :2] = directions[hits] * ranges[hits, np.newaxis]
     frame, stamp = scan.header.frame_id, stamp_ns(scan.header.stamp)
     times = stamp + np.rint(hits * (scan.time_increment * SECOND)).astype(np.int64)
@@ -143,7 +143,7 @@ def project_scan(
 
 
 @lru_cache(maxsize=8)  # Cached, because all scans of a sensor have the same beams.
-def _directions(start: float, increment: float, count: int) -> NDArray[np.float64]:
+def _beam_directions(start: float, increment: float, count: int) -> NDArray[np.float64]:
     """Return the directions of all beams as unit vectors in the plane of the scan, shape (count, 2)."""
     angles = start + increment * np.arange(count)
     directions = np.stack((np.cos(angles), np.sin(angles)), axis=1)

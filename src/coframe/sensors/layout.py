@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     # Triples of field names or of column indices.
     Vectors: TypeAlias = Sequence[str] | Sequence[int] | Sequence[Sequence[str]] | Sequence[Sequence[int]]
 
-__all__ = ["coordinates", "destination", "field_of", "grid_of", "is_message", "message_with_float64"]
+__all__ = ["coordinates", "destination", "field_of", "grid_shape", "is_message", "message_with_float64"]
 
 Triple: TypeAlias = "tuple[NDArray[Any], NDArray[Any], NDArray[Any]]"
 
@@ -50,7 +50,7 @@ def is_message(points: Any) -> bool:
     return False
 
 
-def grid_of(points: Any) -> tuple[int, ...]:
+def grid_shape(points: Any) -> tuple[int, ...]:
     """Return the shape of the points: (N,), or (rows, columns) for an organized cloud.
 
     Raises:
@@ -99,7 +99,7 @@ def coordinates(points: Any, vectors: Vectors, normals: Sequence[Sequence[str]] 
     triples: list[Sequence[str | int]] = [(0, 1, 2) if plain else _POSITION]
     triples += [triple for triple in normals if set(triple) <= set(names)]
     triples += [triple for triple in _triples(vectors) if tuple(triple) not in {tuple(other) for other in triples}]
-    return [_triple(points, triple) for triple in triples]
+    return [_read_triple(points, triple) for triple in triples]
 
 
 def destination(points: Any, out: Any, *, in_place: bool) -> Any:
@@ -152,20 +152,20 @@ def message_with_float64(cloud: Any) -> Any:
         moved.offset, moved.datatype = offset, _FLOAT64 if is_position else field.datatype
         result.fields.append(moved)
         offset += size
-    rows, width = grid_of(cloud)
+    rows, width = grid_shape(cloud)
     packed = np.zeros((rows, width, offset), np.uint8)
     for field, is_position, start, size in columns if packed.size else ():
         part = packed[:, :, start : start + size]
         if is_position:
             part[...] = _message_field(cloud, field.name).astype(wide)[..., None].view(np.uint8)
         else:
-            part[...] = _bytes_of(cloud, field.name, field.offset, size)
+            part[...] = _field_bytes(cloud, field.name, field.offset, size)
     result.point_step, result.row_step = offset, offset * width
     result.data = array("B", packed.tobytes())
     return result
 
 
-def _bytes_of(cloud: Any, name: str, offset: int, size: int) -> NDArray[np.uint8]:
+def _field_bytes(cloud: Any, name: str, offset: int, size: int) -> NDArray[np.uint8]:
     """Return the bytes of a field with any number of elements: (rows, columns, size)."""
     rows, columns, step = cloud.height, cloud.width, cloud.point_step
     row_step = cloud.row_step if rows > 1 and cloud.row_step else columns * step
@@ -224,12 +224,12 @@ def _triples(vectors: Any) -> list[Sequence[str | int]]:
     return triples
 
 
-def _triple(points: Any, names: Sequence[str | int]) -> Triple:
-    x, y, z = (_number_field(points, name) for name in names)
+def _read_triple(points: Any, names: Sequence[str | int]) -> Triple:
+    x, y, z = (_read_number_field(points, name) for name in names)
     return x, y, z
 
 
-def _number_field(points: Any, name: str | int) -> NDArray[Any]:
+def _read_number_field(points: Any, name: str | int) -> NDArray[Any]:
     field = field_of(points, name)
     if field.dtype.kind != "f" or field.dtype.itemsize not in {4, 8}:
         raise ValueError(f"the field {name!r} must be float32 or float64, not {field.dtype}")

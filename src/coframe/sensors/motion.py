@@ -21,8 +21,8 @@ __all__ = ["still_frame"]
 
 _MIN_MOTION = 1e-7  # meters, and parts of a quaternion: more than rounding, less than any motion
 _MAX_ANCESTORS = 100  # frames above the target
-_FIXED = ("odom", "map", "world", "earth", "utm", "camera_init")
-_SAMPLED_TIMES = 33  # times over all samples
+_FIXED_FRAMES = ("odom", "map", "world", "earth", "utm", "camera_init")
+_SAMPLE_COUNT = 33  # times over all samples
 
 
 def still_frame(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64]) -> str | None:
@@ -43,37 +43,41 @@ def still_frame(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[
     """
     if target != source and not buffer.can_transform(target, source):
         return target
-    if not _is_fixed(target) and (carrier := _moved_in(buffer, _joint_parent(buffer, target, source), stamps)):
+    if not _is_fixed(target) and (carrier := _find_motion_frame(buffer, _joint_parent(buffer, target, source), stamps)):
         return carrier
-    return target if _motion(buffer, target, source, stamps) > _MIN_MOTION else _above(buffer, target, source, stamps)
+    return (
+        target
+        if _motion(buffer, target, source, stamps) > _MIN_MOTION
+        else _find_reference_above(buffer, target, source, stamps)
+    )
 
 
-def _above(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64]) -> str | None:
+def _find_reference_above(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64]) -> str | None:
     """Return the nearest frame above the target relative to which the source moves."""
-    above = (parent for _, parent in _edges_above(buffer, target))
+    above = (parent for _, parent in _iterate_edges_above(buffer, target))
     return next((frame for frame in above if _motion(buffer, frame, source, stamps) > _MIN_MOTION), None)
 
 
 def _joint_parent(buffer: _core.Buffer, target: str, source: str) -> str:
     """Return the lowest frame above both frames, or one of them if it is above the other."""
-    above_source = {source, *(parent for _, parent in _edges_above(buffer, source))}
-    above_target = [target, *(parent for _, parent in _edges_above(buffer, target))]
+    above_source = {source, *(parent for _, parent in _iterate_edges_above(buffer, source))}
+    above_target = [target, *(parent for _, parent in _iterate_edges_above(buffer, target))]
     return next((frame for frame in above_target if frame in above_source), target)
 
 
-def _moved_in(buffer: _core.Buffer, robot: str, stamps: NDArray[np.int64]) -> str | None:
+def _find_motion_frame(buffer: _core.Buffer, robot: str, stamps: NDArray[np.int64]) -> str | None:
     """Return the frame above a frame of a robot in which the robot moves, or None if it does not move.
 
     Of several edges that move, the upper ones are corrections of a localization: the frame is the one with the usual
     name, or else the parent of the edge that moves most.
     """
-    motions = {parent: _motion(buffer, parent, child, stamps) for child, parent in _edges_above(buffer, robot)}
+    motions = {parent: _motion(buffer, parent, child, stamps) for child, parent in _iterate_edges_above(buffer, robot)}
     moving = {frame: motion for frame, motion in motions.items() if motion > _MIN_MOTION}
     usual = next((frame for frame in moving if "odom" in frame.rpartition("/")[2]), None)
     return usual or max(moving, key=lambda frame: moving[frame], default=None)
 
 
-def _edges_above(buffer: _core.Buffer, frame: str) -> Iterator[tuple[str, str]]:
+def _iterate_edges_above(buffer: _core.Buffer, frame: str) -> Iterator[tuple[str, str]]:
     """Yield child and parent of the edges from a frame up to its root."""
     for _ in range(_MAX_ANCESTORS):
         state = buffer._edge_at(frame, 0)
@@ -86,7 +90,7 @@ def _edges_above(buffer: _core.Buffer, frame: str) -> Iterator[tuple[str, str]]:
 def _is_fixed(frame: str) -> bool:
     """Return whether a frame does not move with a robot by convention (REP 105)."""
     name = frame.rpartition("/")[2].lower()
-    return any(usual in name for usual in _FIXED)
+    return any(usual in name for usual in _FIXED_FRAMES)
 
 
 def _motion(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64]) -> float:
@@ -104,11 +108,9 @@ def _motion(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.i
         buffer._lookup_rows(target, source, ends, np.empty((2, 7)), None, None, "clip", 1)  # noqa: SLF001
         first, last = int(ends[0]), int(ends[1])
         tried.append(
-            np.array(
-                [first + (last - first) * i // (_SAMPLED_TIMES - 1) for i in range(_SAMPLED_TIMES)], dtype=np.int64
-            )
+            np.array([first + (last - first) * i // (_SAMPLE_COUNT - 1) for i in range(_SAMPLE_COUNT)], dtype=np.int64)
         )
-    return max(_extent(_poses(buffer, target, source, times)) for times in tried)
+    return max(_motion_extent(_poses(buffer, target, source, times)) for times in tried)
 
 
 def _poses(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64]) -> NDArray[np.float64]:
@@ -122,7 +124,7 @@ def _poses(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.in
     return found
 
 
-def _extent(poses: NDArray[np.float64]) -> float:
+def _motion_extent(poses: NDArray[np.float64]) -> float:
     """Return the largest difference from the first pose."""
     if len(poses) < 2:
         return 0.0

@@ -24,19 +24,19 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 __all__ = [
-    "DESKEWED",
+    "DESKEWED_PREFIX",
     "TIME_FIELDS",
     "UNITS",
     "PointTimes",
     "UnknownTimesError",
-    "implausible",
+    "implausible_sweep_reason",
     "likely_times",
-    "times_in",
+    "read_times",
 ]
 
 # The fields of Ouster; of Velodyne; of Hesai, RoboSense and Livox; of Livox; of Aeva, Innovusion and others.
 TIME_FIELDS = ("t", "time", "timestamp", "offset_time", "time_offset", "timeOffset", "time_stamp", "ts")
-DESKEWED = "deskewed_"
+DESKEWED_PREFIX = "deskewed_"
 """Begins the name of a field with the times of points that were deskewed, so that no reader deskews them again."""
 UNITS = {"s": SECOND, "ms": MILLISECOND, "us": MICROSECOND, "ns": 1}
 
@@ -77,7 +77,7 @@ class PointTimes(NamedTuple):
     found: bool = False
 
 
-def times_in(
+def read_times(
     points: NDArray[Any], stamp: int, field: str | None = None, unit: str | None = None, *, period: int = 0
 ) -> PointTimes | None:
     """Return the times of the points, or None if they have no times, or all have the same.
@@ -131,7 +131,7 @@ def likely_times(names: Sequence[str]) -> list[str]:
     return [name for name in names if name not in TIME_FIELDS and _TIME_FIELD_NAME.search(name)]
 
 
-def implausible(times: PointTimes, period: int) -> str:
+def implausible_sweep_reason(times: PointTimes, period: int) -> str:
     """Return why a sweep does not fit the interval between messages, or "" if it does, or the interval is unknown."""
     if not period or _is_plausible(times, period):
         return ""

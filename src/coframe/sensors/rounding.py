@@ -22,7 +22,7 @@ __all__ = ["MIN_FAR_DISTANCE", "as_float64", "float32_step", "rounding_text", "w
 MIN_FAR_DISTANCE = 16_384.0
 """From this distance in meters on, neighboring float32 numbers differ by more than 1 mm."""
 _SAMPLED_POINTS = 64  # points that are looked at: those of a cloud are close to each other
-_MIN_MILLIMETERS, _METER = 0.9995, 1000.0
+_MIN_MILLIMETERS, _MILLIMETERS_PER_METER = 0.9995, 1000.0
 
 
 def float32_step(distance: float) -> float:
@@ -32,12 +32,12 @@ def float32_step(distance: float) -> float:
 
 def rounding_text(distance: float) -> str:
     """Return what float32 does to coordinates that are this far from the origin, as the beginning of a sentence."""
-    step = float32_step(distance) * _METER
-    text = f"{step:.3g} mm" if step < _METER else f"{step / _METER:g} m"
+    step = float32_step(distance) * _MILLIMETERS_PER_METER
+    text = f"{step:.3g} mm" if step < _MILLIMETERS_PER_METER else f"{step / _MILLIMETERS_PER_METER:g} m"
     return f"float32 rounds coordinates of {distance:.0f} m to steps of {text}"
 
 
-def farthest(coordinates: Iterable[NDArray[Any]]) -> float:
+def largest_coordinate(coordinates: Iterable[NDArray[Any]]) -> float:
     """Return the largest coordinate of some of the points in meters; infinite and NaN are ignored."""
     largest = 0.0
     for each in coordinates:

@@ -10,10 +10,10 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["thinned"]
+__all__ = ["thin_points"]
 
 
-def thinned(points: NDArray[Any], edge: float) -> NDArray[Any]:
+def thin_points(points: NDArray[Any], edge: float) -> NDArray[Any]:
     """Return the first point in each voxel.
 
     Args:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from coframe.system.report import SystemReport
 
 _SMALL_BUFFER: Final = 1 << 20  # bytes; a burst of fragments of a large message does not fit into less
-_HIGH_SHARE: Final = 0.8  # of the participant indexes
+_MAX_USED_SHARE: Final = 0.8  # of the participant indexes
 _MAX_SAFE_DOMAIN: Final = 101  # the last domain whose ports are below those that Linux gives to other sockets
 
 
@@ -116,9 +116,9 @@ def _multicast(report: SystemReport) -> Iterator[SystemFinding]:
             )
 
 
-def _room(report: SystemReport) -> Iterator[SystemFinding]:
+def _check_free_indexes(report: SystemReport) -> Iterator[SystemFinding]:
     used, every = report.participants or (0, 1)
-    if used >= _HIGH_SHARE * every:
+    if used >= _MAX_USED_SHARE * every:
         yield SystemFinding(
             "error" if used == every else "warning",
             f"{used} of {every} participant indexes of domain {report.domain} are in use on this machine.",
@@ -134,7 +134,7 @@ def _room(report: SystemReport) -> Iterator[SystemFinding]:
         )
 
 
-def _buffers(report: SystemReport) -> Iterator[SystemFinding]:
+def _check_buffers(report: SystemReport) -> Iterator[SystemFinding]:
     size = report.probe.receive_buffer if report.probe else None
     if size is not None and size < _SMALL_BUFFER:
         yield SystemFinding(
@@ -144,7 +144,7 @@ def _buffers(report: SystemReport) -> Iterator[SystemFinding]:
         )
 
 
-def _range(report: SystemReport) -> Iterator[SystemFinding]:
+def _check_discovery_range(report: SystemReport) -> Iterator[SystemFinding]:
     set_by = {variable.name for variable in report.variables}
     if report.discovery == "OFF":
         yield SystemFinding(
@@ -186,5 +186,8 @@ def _nodes(report: SystemReport) -> Iterator[SystemFinding]:
 
 
 CHECK: Final = MiddlewareCheck(
-    "dds", _examine, _lines, (_library, _rmw, _network, _multicast, _room, _buffers, _range, _nodes)
+    "dds",
+    _examine,
+    _lines,
+    (_library, _rmw, _network, _multicast, _check_free_indexes, _check_buffers, _check_discovery_range, _nodes),
 )

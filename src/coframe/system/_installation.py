@@ -47,7 +47,7 @@ class Installation:
 def installation(environment: Mapping[str, str]) -> Installation:
     """Return the software of this process."""
     return Installation(
-        python=f"{platform.python_version()} ({platform.python_implementation()}{_without_gil()})",
+        python=f"{platform.python_version()} ({platform.python_implementation()}{_free_threading_text()})",
         platform=f"{platform.system()} {platform.release()} {platform.machine()}",
         packages={name: _version(name) for name in ("coframe", "numpy")},
         extras=_extras(),
@@ -57,7 +57,7 @@ def installation(environment: Mapping[str, str]) -> Installation:
     )
 
 
-def _without_gil() -> str:
+def _free_threading_text() -> str:
     return "" if getattr(sys, "_is_gil_enabled", lambda: True)() else ", without the GIL"
 
 

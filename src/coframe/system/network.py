@@ -28,7 +28,7 @@ from coframe.wire.qos import QoS
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-_GROUP: Final = "239.255.0.1"  # the multicast group in which RTPS announces participants
+_MULTICAST_GROUP: Final = "239.255.0.1"  # the multicast group in which RTPS announces participants
 _RECEIVE_TIMEOUT: Final = 2.0  # seconds; much longer than a datagram or sample takes within one machine
 _REQUESTED_BUFFER: Final = 64 << 20  # bytes; more than any system grants without configuration
 
@@ -85,14 +85,14 @@ def probe_participant(domain: int, environment: Mapping[str, str]) -> Probe:
         xml = f'{config.cyclone_config(environment)},<CycloneDDS><Domain id="any">{tracing}</Domain></CycloneDDS>'
         participant = participants.join(domain, xml, "")
         try:
-            exchanged = _exchange(participant.entity)
+            exchanged = _exchange_message(participant.entity)
         finally:
             participant.close()
         text = trace.read_text(errors="replace") if trace.is_file() else ""
     return _read_trace(text, exchanged=exchanged)
 
 
-def _exchange(participant: int) -> bool:
+def _exchange_message(participant: int) -> bool:
     """Send a message through the library to a reader of the same participant. Return whether it arrived unchanged."""
     message = b"\0\1\0\0" + bytes(range(200))
     arrived = _core.Event()
@@ -162,13 +162,13 @@ def multicast_problem(address: str) -> str:
         ):
             receiver.bind(("", 0))
             receiver.settimeout(_RECEIVE_TIMEOUT)
-            group = socket.inet_aton(_GROUP) + interface
+            group = socket.inet_aton(_MULTICAST_GROUP) + interface
             receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, group)
             sender.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, interface)
             sender.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_LOOP, 1)
             sender.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, struct.pack("b", 0))  # stays on this machine
             word = b"coframe " + struct.pack("d", time.time())
-            sender.sendto(word, (_GROUP, receiver.getsockname()[1]))
+            sender.sendto(word, (_MULTICAST_GROUP, receiver.getsockname()[1]))
             while receiver.recv(64) != word:
                 pass
     except OSError as error:

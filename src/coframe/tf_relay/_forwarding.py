@@ -105,7 +105,7 @@ class Relay:
         warn: Callable[[str], None] | None,
     ) -> None:
         self._robots = robots
-        self._keep = shared_frames(keep)
+        self._shared_frames = shared_frames(keep)
         self._split = split
         self._period = 0 if rate is None else round(SECOND / rate)
         self._max_error = max_error
@@ -233,7 +233,7 @@ class Relay:
         return _Output(topic, native, publisher, [])
 
     def _route(self, output: _Output, robot: RobotTopics) -> _Route:
-        names = renaming(robot.prefix, self._keep) or _core.Renaming("", self._keep)
+        names = renaming(robot.prefix, self._shared_frames) or _core.Renaming("", self._shared_frames)
         output.robots.append(robot)
         return _Route(output, output.native.add_source(names, self._split))
 

@@ -11,7 +11,7 @@ from coframe.frame_names import renaming
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["RobotTopics", "choose_robots", "qualified", "topic_of_kind"]
+__all__ = ["RobotTopics", "absolute_topic", "choose_robots", "topic_of_kind"]
 
 
 class RobotTopics(NamedTuple):
@@ -52,7 +52,7 @@ def choose_robots(
     """
     prefixes = sources if isinstance(sources, Mapping) else dict.fromkeys(_split_names(sources), "")
     topics = {f"/{name.strip('/')}/tf": "" for name in _split_names(names)}
-    topics |= {qualified(topic): own for topic, own in prefixes.items()}
+    topics |= {absolute_topic(topic): own for topic, own in prefixes.items()}
     robots = [_robot(topic, own, prefix, name_as_prefix=prefix_each) for topic, own in topics.items()]
     if not robots:
         raise ValueError("a relay needs robots: give their names, or topics such as '/robot1/tf'")
@@ -71,7 +71,7 @@ def topic_of_kind(topic: str, *, static: bool) -> str:
     return f"{topic}_static" if static else topic
 
 
-def qualified(topic: str) -> str:
+def absolute_topic(topic: str) -> str:
     """Return the name of a topic with a leading slash."""
     return topic if topic.startswith("/") else f"/{topic}"
 

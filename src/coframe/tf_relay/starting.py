@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from coframe.tf_relay._forwarding import Relay
 from coframe.tf_relay._max_error import MaxError
-from coframe.tf_relay._robots import choose_robots, qualified
+from coframe.tf_relay._robots import absolute_topic, choose_robots
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
@@ -82,8 +82,8 @@ def relay(
     if max_error is not None:
         max_error = MaxError.of(max_error)
         rate = rate or _THINNED_RATE
-    common = qualified(common)
-    topics = common, qualified(common_static or f"{common}_static")
+    common = absolute_topic(common)
+    topics = common, absolute_topic(common_static or f"{common}_static")
     members = choose_robots(robots, sources, common=topics, prefix=prefix, prefix_each=prefix_each or split, keep=keep)
     return Relay(
         members,

@@ -22,7 +22,8 @@ MIN_SPACING = 1_000  # nanoseconds; no trajectory has a million poses per second
 _EARLIEST, _LATEST = 946_684_800, 4_102_444_800  # the years 2000 and 2100, in seconds
 _MAX_STEP = 3600 * SECOND
 _MIN_MOVES = 10
-_STRAIGHT, _SCATTERED = 0.95, 0.85  # mean resultant lengths of the directions of motion, seen from the moving frame
+# Mean resultant lengths of the directions of motion, seen from the moving frame.
+_MIN_STRAIGHT_LENGTH, _MAX_SCATTERED_LENGTH = 0.95, 0.85
 
 
 def looks_like_seconds(stamps: NDArray[np.int64]) -> bool:
@@ -67,24 +68,24 @@ def findings(
             f"the quaternions of {count(len(wrong), 'pose')} do not have norm 1; the first one is pose {wrong[0] + 1}, "
             f"with norm {norms[wrong[0]]:.4g}"
         )
-    as_read = _resultant(positions, xyzw)
-    if as_read is None or as_read >= _SCATTERED:
+    as_read = _resultant_length(positions, xyzw)
+    if as_read is None or as_read >= _MAX_SCATTERED_LENGTH:
         return
     readings = {
         "the quaternions are read with w first": (positions, xyzw[:, (1, 2, 3, 0)]),
         "the quaternions are read with w last": (positions, xyzw[:, (3, 0, 1, 2)]),
-        "the poses are inverted": (_inverted(positions, xyzw), xyzw * (-1, -1, -1, 1)),
+        "the poses are inverted": (_inverse_positions(positions, xyzw), xyzw * (-1, -1, -1, 1)),
     }
     for how, (places, rotations) in readings.items():
-        other = _resultant(places, rotations)
-        if other is not None and other > _STRAIGHT:
+        other = _resultant_length(places, rotations)
+        if other is not None and other > _MIN_STRAIGHT_LENGTH:
             yield (
-                f"the path is smoother if {how}: {_percent(other)} instead of {_percent(as_read)} of the motion is in "
-                "one direction of the moving frame"
+                f"the path is smoother if {how}: {_percent_text(other)} instead of {_percent_text(as_read)} of the "
+                "motion is in one direction of the moving frame"
             )
 
 
-def _resultant(positions: NDArray[np.float64], xyzw: NDArray[np.float64]) -> float | None:
+def _resultant_length(positions: NDArray[np.float64], xyzw: NDArray[np.float64]) -> float | None:
     """Return how equal the directions of motion are, seen from the moving frame: 0 to 1, or None if it hardly moves."""
     if len(positions) <= _MIN_MOVES:
         return None
@@ -95,22 +96,22 @@ def _resultant(positions: NDArray[np.float64], xyzw: NDArray[np.float64]) -> flo
     if np.count_nonzero(moving) < _MIN_MOVES:
         return None
     directions = steps[moving] / lengths[moving, None]
-    turned = _turned(directions, xyzw[:-1][moving] * (-1, -1, -1, 1) / norms[moving, None])
+    turned = _rotate_vectors(directions, xyzw[:-1][moving] * (-1, -1, -1, 1) / norms[moving, None])
     return float(np.linalg.norm(turned.mean(axis=0)))
 
 
-def _inverted(positions: NDArray[np.float64], xyzw: NDArray[np.float64]) -> NDArray[np.float64]:
+def _inverse_positions(positions: NDArray[np.float64], xyzw: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the positions of the inverse poses."""
     norms = np.linalg.norm(xyzw, axis=1)[:, None]
-    return -_turned(positions, xyzw * (-1, -1, -1, 1) / np.where(norms > 0, norms, 1.0))
+    return -_rotate_vectors(positions, xyzw * (-1, -1, -1, 1) / np.where(norms > 0, norms, 1.0))
 
 
-def _turned(vectors: NDArray[np.float64], xyzw: NDArray[np.float64]) -> NDArray[np.float64]:
+def _rotate_vectors(vectors: NDArray[np.float64], xyzw: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return vectors rotated by unit quaternions."""
     axis, scalar = xyzw[:, :3], xyzw[:, 3:]
     turned: NDArray[np.float64] = vectors + 2 * np.cross(axis, np.cross(axis, vectors) + scalar * vectors)
     return turned
 
 
-def _percent(share: float) -> str:
+def _percent_text(share: float) -> str:
     return f"{100 * share:.0f} %"

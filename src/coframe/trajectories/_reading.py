@@ -41,11 +41,11 @@ MAX_POSES = 1_000_000  # 2.7 hours at 100 Hz
 MAX_UNPACKED = 256 << 20  # bytes of an npz file after decompression
 _ZIP = b"PK"
 _UTF_16 = (b"\xff\xfe", b"\xfe\xff")  # as PowerShell writes text
-_COMMAND = "`coframe trajectory BAG TARGET SOURCE -o FILE` writes the trajectory of a frame in a recording."
+_COMMAND_HINT = "`coframe trajectory BAG TARGET SOURCE -o FILE` writes the trajectory of a frame in a recording."
 _SECONDS = re.compile(r"(-?)(\d+)(?:\.(\d*))?", re.ASCII)
 _MAX_STAMP = 1 << 63
 # The columns of files without a header line.
-_W_LAST, _W_FIRST = (Columns(0, pose, None) for pose in ((1, 2, 3, 4, 5, 6, 7), (1, 2, 3, 5, 6, 7, 4)))
+_W_LAST_COLUMNS, _W_FIRST_COLUMNS = (Columns(0, pose, None) for pose in ((1, 2, 3, 4, 5, 6, 7), (1, 2, 3, 5, 6, 7, 4)))
 _OPENVINS_COLUMNS = 20  # TUM, and twelve values of the covariance
 _MAX_DIGITS = 40  # of a time that a message quotes
 MIN_MATRIX_ERROR, MAX_MATRIX_ERROR = 1e-5, 1e-3  # of numbers with five, and with three decimals
@@ -123,7 +123,9 @@ def read_trajectory(
             if format_ == "npz" or (format_ is None and is_zip):
                 poses, sentences = _read_npz(file, stream)
             elif what := what_else(beginning):
-                raise TrajectoryError(f"{file} is not a trajectory: {what}", hint=_COMMAND if "rec" in what else "")
+                raise TrajectoryError(
+                    f"{file} is not a trajectory: {what}", hint=_COMMAND_HINT if "rec" in what else ""
+                )
             else:
                 encoding = "utf-16" if beginning.startswith(_UTF_16) else "utf-8-sig"
                 text = io.TextIOWrapper(stream, encoding=encoding)
@@ -215,7 +217,7 @@ class _Rows:
                 + (f", like {other}" if other else ""),
                 hint=_LAYOUTS,
             )
-        self._columns = {"kitti": None, "euroc": _W_FIRST}.get(kind, _W_LAST)
+        self._columns = {"kitti": None, "euroc": _W_FIRST_COLUMNS}.get(kind, _W_LAST_COLUMNS)
         self._times = _Times(SECOND if kind == "tum" else 1)
 
     def poses(self) -> _Poses:
@@ -314,7 +316,9 @@ def _matrices(file: Readable, numbers: NDArray[np.float64]) -> _Poses:
     try:
         poses = Transform.from_matrix(matrices)
     except ValueError as error:
-        raise TrajectoryError(f"{file}, pose {int(errors.argmax()) + 1}: {error}", hint=_other_order(rows)) from None
+        raise TrajectoryError(
+            f"{file}, pose {int(errors.argmax()) + 1}: {error}", hint=_other_order_hint(rows)
+        ) from None
     return poses, [*sentences, *findings(None, poses.translation, poses.quaternion)]
 
 
@@ -325,7 +329,7 @@ def _orthogonality_errors(rotations: NDArray[np.float64]) -> NDArray[np.float64]
     return errors
 
 
-def _other_order(rows: NDArray[np.float64]) -> str:
+def _other_order_hint(rows: NDArray[np.float64]) -> str:
     """Return a hint if the numbers are rotation matrices in another order, or "" otherwise."""
     flat = rows.reshape(-1, 12)
     orders = {

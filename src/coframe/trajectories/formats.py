@@ -106,7 +106,7 @@ def write_trajectory(
     batches = _report_progress(chain([first], batches), progress or (lambda _written: None))
     rows = ((batch, {} if columns is None else columns(batch)) for batch in batches)
     if kind in _TEXT:
-        with _text_stream(target) as stream:
+        with _open_text_stream(target) as stream:
             for number, (batch, others) in enumerate(rows):
                 if kind in _HEADERS and number == 0:
                     stream.write(",".join([_HEADERS[kind], *others]) + "\n")
@@ -146,7 +146,7 @@ def _report_progress(batches: Iterable[Transform], progress: Callable[[int], obj
             yield poses
 
 
-def _text_stream(target: Any) -> AbstractContextManager[TextIO]:
+def _open_text_stream(target: Any) -> AbstractContextManager[TextIO]:
     if hasattr(target, "write"):
         return nullcontext(target)
     return _text_file(Path(target))

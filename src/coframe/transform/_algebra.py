@@ -17,7 +17,7 @@ from coframe.transform.values import (
     arrow,
     common_frame,
     common_stamp,
-    derived,
+    derive_transform,
     known_covariance,
     pose_rows,
 )
@@ -71,7 +71,7 @@ class TransformAlgebra(TransformValues):
             )
         rows = np.empty((given.size // 6, 7))
         _core.exponentials(np.ascontiguousarray(given), rows)
-        return _of_rows(rows, given.shape[:-1], target, source, stamp)
+        return _transform_of_rows(rows, given.shape[:-1], target, source, stamp)
 
     def log(self) -> Array:
         """Return the twist whose :meth:`exp` is this transform, with a rotation of at most half a turn.
@@ -106,10 +106,12 @@ class TransformAlgebra(TransformValues):
             return single
         rows = np.empty((int(np.prod(self.shape)), 7))
         _core.compose_batches(pose_rows(self, self.shape), _IDENTITY, True, rows)
-        found = _of_rows(rows, self.shape, self.source, self.target, any_stamp(self))
+        found = _transform_of_rows(rows, self.shape, self.source, self.target, any_stamp(self))
         if self.covariance is None:
             return found
-        return _with(found, _covariance.inverted(self.covariance, self.rotation, self.translation), self.exact_edges)
+        return _replace_covariance(
+            found, _covariance.inverted(self.covariance, self.rotation, self.translation), self.exact_edges
+        )
 
     def interpolate(
         self, other: Transform, fraction: ArrayLike, *, interpolation: Interpolation = "decoupled"
@@ -144,12 +146,14 @@ class TransformAlgebra(TransformValues):
         rows = np.empty((int(np.prod(shape)), 7))
         screw = is_screw(interpolation)
         _core.interpolate_batches(pose_rows(self, shape), pose_rows(other, shape), given, screw, rows)
-        found = _of_rows(rows, shape, target, source, _interpolated_stamps(self, other, s))
+        found = _transform_of_rows(rows, shape, target, source, _interpolated_stamps(self, other, s))
         if self.covariance is None or other.covariance is None:
             return found
-        ends = [_covariance.in_body(known_covariance(t, ""), t.rotation) for t in (self, other)]
+        ends = [_covariance.to_body(known_covariance(t, ""), t.rotation) for t in (self, other)]
         body = (1.0 - s)[..., None, None] * ends[0] + s[..., None, None] * ends[1]
-        return _with(found, _covariance.from_body(body, found.rotation), (*self.exact_edges, *other.exact_edges))
+        return _replace_covariance(
+            found, _covariance.from_body(body, found.rotation), (*self.exact_edges, *other.exact_edges)
+        )
 
     def adjoint(self) -> Array:
         """Return the matrix that turns twists along the axes of ``source`` into twists along those of ``target``.
@@ -206,7 +210,7 @@ class TransformAlgebra(TransformValues):
         q = self.quaternion.reshape(-1, 4)
         _, vectors = np.linalg.eigh((q.T * w) @ q)
         mean = vectors[:, -1] * (-1.0 if vectors[3, -1] < 0.0 else 1.0)
-        return derived(w @ self.translation.reshape(-1, 3), mean, self.target, self.source, None)
+        return derive_transform(w @ self.translation.reshape(-1, 3), mean, self.target, self.source, None)
 
     @classmethod
     def stack(cls, transforms: Any) -> Transform:
@@ -254,9 +258,9 @@ class TransformAlgebra(TransformValues):
             ValueError: It has another shape, or the convention is unknown.
         """
         if covariance is None:
-            return _with(self, None, ())
+            return _replace_covariance(self, None, ())
         given = _covariance.checked(covariance, self.shape)
-        return _with(self, _covariance.from_convention(given, self.rotation, convention), ())
+        return _replace_covariance(self, _covariance.from_convention(given, self.rotation, convention), ())
 
     def fuse(self, other: Transform) -> Transform:
         """Return the most likely pose given two independent estimates of it, with its covariance.
@@ -273,16 +277,16 @@ class TransformAlgebra(TransformValues):
         """
         target = common_frame(self.target, other.target, "fuse", self, other)
         source = common_frame(self.source, other.source, "fuse", self, other)
-        mine = _covariance.in_body(known_covariance(self, "fuse()"), self.rotation)
-        others = _covariance.in_body(known_covariance(other, "fuse()"), other.rotation)
-        x, body = _covariance.fused(
+        mine = _covariance.to_body(known_covariance(self, "fuse()"), self.rotation)
+        others = _covariance.to_body(known_covariance(other, "fuse()"), other.rotation)
+        x, body = _covariance.fuse_poses(
             mine, others, lambda twist: (other.inverse() @ (self.with_covariance(None) @ self.exp(twist))).log()
         )
         pose = self.with_covariance(None) @ self.exp(x)
         covariance = _covariance.from_body(body, pose.rotation)
         stamp = common_stamp(any_stamp(self), any_stamp(other))
         exact = (*self.exact_edges, *other.exact_edges)
-        return derived(pose.translation, pose.quaternion, target, source, stamp, covariance, exact)
+        return derive_transform(pose.translation, pose.quaternion, target, source, stamp, covariance, exact)
 
     def mahalanobis(self, other: Transform) -> Any:
         """Return how far another pose is away in standard deviations, by both covariances together.
@@ -328,7 +332,7 @@ class TransformAlgebra(TransformValues):
         """
         radii, axes = _covariance.ellipsoid(known_covariance(self, "ellipsoid()"), confidence)
         stamp = any_stamp(self)
-        pose = derived(self.translation, quaternion.from_matrix(axes), self.target, None, stamp)
+        pose = derive_transform(self.translation, quaternion.from_matrix(axes), self.target, None, stamp)
         return _covariance.Ellipsoid(pose, radii)
 
     def _compose(self, other: Transform) -> Transform:
@@ -345,27 +349,33 @@ class TransformAlgebra(TransformValues):
         rows = np.empty((int(np.prod(shape)), 7))
         _core.compose_batches(pose_rows(self, shape), pose_rows(other, shape), False, rows)
         stamp = common_stamp(any_stamp(self), any_stamp(other))
-        found = _of_rows(rows, shape, self.target, other.source, stamp)
+        found = _transform_of_rows(rows, shape, self.target, other.source, stamp)
         if self.covariance is None and other.covariance is None:
             return found
-        moved = _covariance.compounded(self.covariance, other.covariance, self.rotation, other.translation)
-        return _with(found, moved, (*self.exact_edges, *other.exact_edges))
+        moved = _covariance.compound_covariances(self.covariance, other.covariance, self.rotation, other.translation)
+        return _replace_covariance(found, moved, (*self.exact_edges, *other.exact_edges))
 
 
-def _of_rows(rows: Array, shape: tuple[int, ...], target: str | None, source: str | None, stamp: Any) -> Transform:
+def _transform_of_rows(
+    rows: Array, shape: tuple[int, ...], target: str | None, source: str | None, stamp: Any
+) -> Transform:
     """Return the transform of an array (n, 7) that no other object uses."""
     rows.setflags(write=False)
     poses = rows.reshape(*shape, 7)
-    return derived(poses[..., :3], poses[..., 3:], target, source, stamp)
+    return derive_transform(poses[..., :3], poses[..., 3:], target, source, stamp)
 
 
-def _with(transform: TransformValues, covariance: Array | None, exact_edges: tuple[str, ...]) -> Transform:
+def _replace_covariance(
+    transform: TransformValues, covariance: Array | None, exact_edges: tuple[str, ...]
+) -> Transform:
     """Return the same transform with another covariance."""
     if covariance is None and transform._uncertainty is None:
         return transform  # type: ignore[return-value]  # the only class of transforms
     stamp = any_stamp(transform)
     t, q = transform.translation, transform.quaternion
-    return derived(t, q, transform.target, transform.source, stamp, covariance, tuple(dict.fromkeys(exact_edges)))
+    return derive_transform(
+        t, q, transform.target, transform.source, stamp, covariance, tuple(dict.fromkeys(exact_edges))
+    )
 
 
 def _interpolated_stamps(a: TransformValues, b: TransformValues, fraction: Array) -> Any:
@@ -385,7 +395,7 @@ def _joined(transforms: list[Any], what: str, join: Any) -> Transform:
         source = common_frame(source, other.source, what, transforms[0], other)
     stamps, found = [any_stamp(each) for each in transforms], [each.covariance for each in transforms]
     exact = tuple(dict.fromkeys(edge for each in transforms for edge in each.exact_edges))
-    return derived(
+    return derive_transform(
         _read_only(join([each.translation for each in transforms])),
         _read_only(join([each.quaternion for each in transforms])),
         target,

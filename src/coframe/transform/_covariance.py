@@ -33,7 +33,7 @@ _TOLERANCE = 1e-6
 # Fusion ends when a step is shorter than this, or after this many.
 _SMALL_STEP, _MAX_STEPS = 1e-13, 50
 # Directions whose variance is smaller than this fraction of the largest one count as exact in a fusion.
-_EXACT = 1e-14
+_EXACT_RATIO = 1e-14
 _ROTATION_FIRST = [3, 4, 5, 0, 1, 2]
 
 
@@ -98,10 +98,10 @@ def turned(covariance: Array, rotation: Array) -> Array:
     """Return covariances along other axes: D C D^T."""
     both = np.zeros((*rotation.shape[:-2], 6, 6))
     both[..., :3, :3] = both[..., 3:, 3:] = rotation
-    return _conjugated(both, covariance)
+    return _conjugate(both, covariance)
 
 
-def in_body(covariance: Array, rotation: Array) -> Array:
+def to_body(covariance: Array, rotation: Array) -> Array:
     """Return the covariance of xi, along the axes of the source."""
     return turned(covariance, np.swapaxes(rotation, -1, -2))
 
@@ -116,7 +116,7 @@ def to_convention(covariance: Array, rotation: Array, convention: str) -> Array:
     _check_convention(convention)
     if convention == "ros":
         return covariance
-    body = in_body(covariance, rotation)
+    body = to_body(covariance, rotation)
     return _reordered(body) if convention == "gtsam" else body
 
 
@@ -138,10 +138,10 @@ def adjoint(rotation: Array, translation: Array) -> Array:
 
 def inverted(covariance: Array, rotation: Array, translation: Array) -> Array:
     """Return the covariance of the inverse of a transform: its error is -Ad(T) xi."""
-    return turned(_conjugated(_lever(translation), covariance), np.swapaxes(rotation, -1, -2))
+    return turned(_conjugate(_lever_matrix(translation), covariance), np.swapaxes(rotation, -1, -2))
 
 
-def compounded(first: Array | None, second: Array | None, rotation: Array, translation: Array) -> Array:
+def compound_covariances(first: Array | None, second: Array | None, rotation: Array, translation: Array) -> Array:
     """Return the covariance of A B from those of A and B, of which one may be exact (None).
 
     The error of A moves to the source of B linearly. Two errors combine to fourth order (T. Barfoot and P. Furgale,
@@ -154,7 +154,7 @@ def compounded(first: Array | None, second: Array | None, rotation: Array, trans
         translation: Translation of B.
     """
     arm = (rotation @ translation[..., None])[..., 0]
-    a = None if first is None else _conjugated(_lever(-arm), first)
+    a = None if first is None else _conjugate(_lever_matrix(-arm), first)
     b = None if second is None else turned(second, rotation)
     if a is None or b is None:
         return a if b is None else b  # type: ignore[return-value]  # one of them is known
@@ -167,7 +167,7 @@ def compounded(first: Array | None, second: Array | None, rotation: Array, trans
     return result
 
 
-def fused(mine: Array, others: Array, error_at: Callable[[Array], Array]) -> tuple[Array, Array]:
+def fuse_poses(mine: Array, others: Array, error_at: Callable[[Array], Array]) -> tuple[Array, Array]:
     """Fuse two estimates of a pose, A with the covariance `mine` and B with `others`, both of xi.
 
     Args:
@@ -185,12 +185,12 @@ def fused(mine: Array, others: Array, error_at: Callable[[Array], Array]) -> tup
         # A small change d of x changes the error by `slope` d.
         slope = np.asarray(np.linalg.solve(_right_jacobian(error), _right_jacobian(x)), dtype=np.float64)
         moved = mine @ np.swapaxes(slope, -1, -2)
-        gain: Array = moved @ np.linalg.pinv(slope @ moved + others, rcond=_EXACT, hermitian=True)
+        gain: Array = moved @ np.linalg.pinv(slope @ moved + others, rcond=_EXACT_RATIO, hermitian=True)
         previous, x = x, _product(gain, _product(slope, x) - error)
         if np.abs(x - previous).max(initial=0.0) < _SMALL_STEP * max(1.0, np.abs(x).max(initial=0.0)):
             break
     left = (np.eye(6) - gain @ slope) @ mine
-    covariance = _conjugated(_right_jacobian(x), 0.5 * (left + np.swapaxes(left, -1, -2)))
+    covariance = _conjugate(_right_jacobian(x), 0.5 * (left + np.swapaxes(left, -1, -2)))
     return x, covariance
 
 
@@ -231,7 +231,7 @@ def _sphere_radius(confidence: float) -> float:
     return high
 
 
-def _lever(arm: Array) -> Array:
+def _lever_matrix(arm: Array) -> Array:
     """Return the matrix that adds the rotation error times an arm to the position error."""
     lever = np.zeros((*arm.shape[:-1], 6, 6))
     lever[..., range(6), range(6)] = 1.0
@@ -250,7 +250,7 @@ def _right_jacobian(twist: Array) -> Array:
     return total
 
 
-def _conjugated(matrix: Array, covariance: Array) -> Array:
+def _conjugate(matrix: Array, covariance: Array) -> Array:
     result: Array = matrix @ covariance @ np.swapaxes(matrix, -1, -2)
     return 0.5 * (result + np.swapaxes(result, -1, -2))
 
@@ -283,7 +283,7 @@ def _cross(vectors: Array) -> Array:
     return matrix
 
 
-def _brackets() -> Array:
+def _bracket_matrices() -> Array:
     """Return the matrices of the Lie bracket with each of the six unit twists, shape (6, 6, 6)."""
     crosses = _cross(np.eye(3))
     brackets = np.zeros((6, 6, 6))
@@ -292,4 +292,4 @@ def _brackets() -> Array:
     return brackets
 
 
-_BRACKETS = _brackets()
+_BRACKETS = _bracket_matrices()

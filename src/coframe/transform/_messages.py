@@ -30,7 +30,7 @@ _LINEAR_AND_ANGULAR = (("position", "orientation"), ("translation", "rotation"))
 _MAX_LEVELS = 4
 # Lists of poses, which are empty in a default message.
 _POSE_LISTS = ("poses", "transforms")
-_EACH = "[]"
+_EACH_ELEMENT = "[]"
 
 
 @dataclass
@@ -87,7 +87,7 @@ class Contents:
         Raises:
             FrameMismatchException: There are several.
         """
-        return self._common({pose.frame for pose in self.poses})
+        return self._common_frame({pose.frame for pose in self.poses})
 
     @property
     def child(self) -> str | None:
@@ -96,7 +96,7 @@ class Contents:
         Raises:
             FrameMismatchException: There are several.
         """
-        return self._common({pose.child for pose in self.poses})
+        return self._common_frame({pose.child for pose in self.poses})
 
     @property
     def covariance(self) -> Array | None:
@@ -107,7 +107,7 @@ class Contents:
         array = np.array(found, dtype=np.float64)
         return (array if self.is_list else array[0]) if array.any() else None
 
-    def _common(self, names: set[str]) -> str | None:
+    def _common_frame(self, names: set[str]) -> str | None:
         known = sorted(names - {""})
         if len(known) > 1:
             raise FrameMismatchException.with_details(
@@ -124,7 +124,7 @@ def is_message(value: Any) -> bool:
     return hasattr(value, "get_fields_and_field_types") or bool(_names(value)) or _pose_fields(value) is not None
 
 
-def unwrapped(value: Any) -> Any:
+def unwrap_message(value: Any) -> Any:
     """Return the message of a message of a recording, which contains it next to its topic."""
     inner = getattr(value, "message", None)
     return inner if hasattr(inner, "get_fields_and_field_types") and not hasattr(value, "header") else value
@@ -136,11 +136,11 @@ def contents(message: Any) -> Contents:
     Raises:
         ValueError: It contains none, or several fields with a pose.
     """
-    message = unwrapped(message)
+    message = unwrap_message(message)
     paths = _paths(message)
     if len(paths) > 1:
         names = ", ".join(_text(path) for path in paths)
-        example = _text(paths[0]).replace(_EACH, "[0]")
+        example = _text(paths[0]).replace(_EACH_ELEMENT, "[0]")
         raise ValueError(f"{_name(message)} contains several poses: {names}. Pass one of them: message.{example}.")
     if not paths:
         empty = next((name for name in _POSE_LISTS if hasattr(message, name)), None)
@@ -151,10 +151,10 @@ def contents(message: Any) -> Contents:
             )
         return Contents([], is_list=True)
     path = paths[0]
-    return Contents(list(_along(message, path, (), "", None)), is_list=_EACH in path)
+    return Contents(list(_poses_along(message, path, (), "", None)), is_list=_EACH_ELEMENT in path)
 
 
-def filled(message_type: type, transform: Transform, frame: str | None, stamp: int | None) -> Any:
+def fill_message(message_type: type, transform: Transform, frame: str | None, stamp: int | None) -> Any:
     """Return a new message with the poses of a transform.
 
     Raises:
@@ -168,7 +168,7 @@ def filled(message_type: type, transform: Transform, frame: str | None, stamp: i
         )
     message = message_type()
     rows = np.asarray(transform)
-    places = _list_of(message, transform) if rows.ndim > 1 or not _paths(message) else contents(message)
+    places = _fill_list(message, transform) if rows.ndim > 1 or not _paths(message) else contents(message)
     for header in _headers(message, places):
         header.frame_id = frame or ""
     covariance = None if transform.covariance is None else transform.covariance.reshape(-1, 36)
@@ -179,7 +179,7 @@ def filled(message_type: type, transform: Transform, frame: str | None, stamp: i
     for i, (place, row) in enumerate(zip(places.poses, rows.reshape(-1, 7), strict=True)):
         place.write(row)
         if covariance is not None and place.covariance is not None:
-            _assign(place.covariance, covariance[i])
+            _assign_numbers(place.covariance, covariance[i])
         if set_stamp and place.headers:
             # One header for all poses has the stamp of the first.
             if i == 0 or place.headers[0] is not places.poses[0].headers[0]:
@@ -191,7 +191,7 @@ def filled(message_type: type, transform: Transform, frame: str | None, stamp: i
     return message
 
 
-def moved(transform: Transform, message: Any, pose_of: Any) -> Any:
+def transform_message(transform: Transform, message: Any, pose_of: Any) -> Any:
     """Return a copy of a message whose poses are transformed.
 
     Raises:
@@ -203,7 +203,7 @@ def moved(transform: Transform, message: Any, pose_of: Any) -> Any:
             f"`batch @ {type(message).__name__}` is not defined. Use one transform of the batch, or "
             "batch @ Transform(message)."
         )
-    message = unwrapped(message)
+    message = unwrap_message(message)
     result = copy.deepcopy(message)
     found = contents(result)
     frame = found.frame
@@ -220,7 +220,7 @@ def moved(transform: Transform, message: Any, pose_of: Any) -> Any:
     for i, place in enumerate(found.poses):
         place.write(rows[i])
         if covariance is not None and place.covariance is not None:
-            _assign(place.covariance, covariance[i])
+            _assign_numbers(place.covariance, covariance[i])
     for header in _headers(result, found):
         header.frame_id = transform.target or header.frame_id
     return result
@@ -256,14 +256,14 @@ def _paths(message: Any) -> list[tuple[str, ...]]:
                 field = getattr(value, name)
                 if isinstance(field, list | tuple):
                     if field and is_message(field[0]):
-                        below.append(((*path, name, _EACH), field[0]))
+                        below.append(((*path, name, _EACH_ELEMENT), field[0]))
                 elif is_message(field):
                     below.append(((*path, name), field))
         level = below
     return []
 
 
-def _along(
+def _poses_along(
     value: Any, path: tuple[str, ...], headers: tuple[Any, ...], child: str, covariance: Any
 ) -> Iterator[MessagePose]:
     """Yield the poses at the end of a path."""
@@ -275,14 +275,14 @@ def _along(
     if not path:
         position, orientation = _pose_fields(value) or (None, None)
         yield MessagePose(position, orientation, headers, child, covariance)
-    elif path[0] == _EACH:
+    elif path[0] == _EACH_ELEMENT:
         for each in value:
-            yield from _along(each, path[1:], headers, child, covariance)
+            yield from _poses_along(each, path[1:], headers, child, covariance)
     else:
-        yield from _along(getattr(value, path[0]), path[1:], headers, child, covariance)
+        yield from _poses_along(getattr(value, path[0]), path[1:], headers, child, covariance)
 
 
-def _list_of(message: Any, transform: Transform) -> Contents:
+def _fill_list(message: Any, transform: Transform) -> Contents:
     """Fill the list of a new message with default poses, and return their places.
 
     Raises:
@@ -319,7 +319,7 @@ def _set_stamp(stamp: Any, nanoseconds: int) -> None:
     stamp.sec, stamp.nanosec = divmod(nanoseconds, SECOND)
 
 
-def _assign(place: Any, numbers: Array) -> None:
+def _assign_numbers(place: Any, numbers: Array) -> None:
     place[:] = numbers
 
 
@@ -329,4 +329,4 @@ def _name(message: Any) -> str:
 
 
 def _text(path: tuple[str, ...]) -> str:
-    return ".".join(path).replace("." + _EACH, _EACH)
+    return ".".join(path).replace("." + _EACH_ELEMENT, _EACH_ELEMENT)

@@ -54,16 +54,16 @@ class StepLimits:
         poses = poses_at(stamps)
         parts_per_step = _CANDIDATES
         for _ in range(_MAX_ROUNDS):
-            parts = np.ceil(self._share(poses[:-1], poses[1:]) * parts_per_step).astype(np.int64)
+            parts = np.ceil(self._step_fractions(poses[:-1], poses[1:]) * parts_per_step).astype(np.int64)
             parts = np.clip(parts, 1, np.maximum(np.diff(stamps), 1))
             if (parts == 1).all():
                 break
             stamps = _divide(stamps, parts)
             poses = poses_at(stamps)
             parts_per_step = 1
-        return poses[self._thin(poses)]
+        return poses[self._thin_rows(poses)]
 
-    def _thin(self, poses: Transform) -> NDArray[np.intp]:
+    def _thin_rows(self, poses: Transform) -> NDArray[np.intp]:
         """Return the indices of the poses to keep. Each one is the last pose within the limits of the previous one."""
         kept = [0]
         last = len(poses) - 1
@@ -73,14 +73,14 @@ class StepLimits:
             width = 8
             while True:
                 end = min(start + width, last)
-                far = self._share(poses[start : start + 1], poses[start + 1 : end + 1]) > 1.0
+                far = self._step_fractions(poses[start : start + 1], poses[start + 1 : end + 1]) > 1.0
                 if far.any() or end == last:
                     break
                 width *= 2
             kept.append(max(start + int(far.argmax()), start + 1) if far.any() else last)
         return np.array(kept, dtype=np.intp)
 
-    def _share(self, a: Transform, b: Transform) -> NDArray[np.float64]:
+    def _step_fractions(self, a: Transform, b: Transform) -> NDArray[np.float64]:
         """Return the size of each step as a fraction of the limit."""
         share = np.zeros(len(b))
         if self.max_translation is not None:

@@ -14,7 +14,7 @@ from coframe.time import stamp_ns
 from coframe.transform import _covariance, _messages
 from coframe.transform._arguments import checked_points, checked_vectors, normalized, single_pose
 from coframe.transform._constructors import TransformConstructors
-from coframe.transform.values import IDENTITY, any_stamp, arrow, batch_of, broadcast_stamps, derived
+from coframe.transform.values import IDENTITY, any_stamp, arrow, batch_of, broadcast_stamps, derive_transform
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -146,7 +146,7 @@ class Transform(TransformConstructors):
             ('map', 2.0)
         """
         time = self.stamp if stamp is None else stamp_ns(stamp)
-        return _messages.filled(message_type, self, self.target if frame is None else frame, time)
+        return _messages.fill_message(message_type, self, self.target if frame is None else frame, time)
 
     @overload
     def __matmul__(self, other: Transform) -> Transform: ...
@@ -176,7 +176,7 @@ class Transform(TransformConstructors):
         if isinstance(other, Transform):
             return self._compose(other)
         if _messages.is_message(other):
-            return _messages.moved(self, other, Transform)
+            return _messages.transform_message(self, other, Transform)
         points = checked_points(other)
         if self.shape:
             turned = quaternion.rotate(self.quaternion, points.astype(np.float64, copy=False)) + self.translation
@@ -235,7 +235,7 @@ class Transform(TransformConstructors):
         given = np.asarray(covariance, dtype=np.float64)
         theirs = _covariance.square(given, "covariance")
         own = None if own_covariance is None else _covariance.square(own_covariance, "own_covariance")
-        moved = _covariance.compounded(own, theirs, self.rotation, pose.translation)
+        moved = _covariance.compound_covariances(own, theirs, self.rotation, pose.translation)
         return self @ pose, moved.reshape(*moved.shape[:-2], 36) if given.shape[-2:] != (6, 6) else moved
 
     def is_close(self, other: Transform, *, translation: float = 1e-9, rotation: float = 1e-9) -> bool:
@@ -291,7 +291,7 @@ class Transform(TransformConstructors):
         new_target = self.target if target is _KEEP else target
         new_source = self.source if source is _KEEP else source
         exact = self.exact_edges if covariance is _KEEP else ()
-        return derived(t, q, new_target, new_source, when, matrices, exact)
+        return derive_transform(t, q, new_target, new_source, when, matrices, exact)
 
     __replace__ = replace  # copy.replace() of Python 3.13
 
@@ -325,7 +325,9 @@ class Transform(TransformConstructors):
         flat_t, flat_q = self.translation.reshape(-1, 3), self.quaternion.reshape(-1, 4)
         stamp = None if self.stamps is None else self.stamps.reshape(-1)[picked]
         covariance = None if self.covariance is None else self.covariance.reshape(-1, 6, 6)[picked]
-        return derived(flat_t[picked], flat_q[picked], self.target, self.source, stamp, covariance, self.exact_edges)
+        return derive_transform(
+            flat_t[picked], flat_q[picked], self.target, self.source, stamp, covariance, self.exact_edges
+        )
 
     def __iter__(self) -> Iterator[Transform]:
         return (self[i] for i in range(len(self)))

@@ -30,12 +30,12 @@ class TransformValues(_core.Transform):
     @property
     def translation(self) -> Array:
         """Position of the source frame in the target frame, in meters; shape (3,), for a batch (..., 3)."""
-        return _frozen(self.values[:3]) if self._batch is None else self._batch[0]
+        return _freeze_array(self.values[:3]) if self._batch is None else self._batch[0]
 
     @property
     def quaternion(self) -> Array:
         """Unit quaternion x, y, z, w of the rotation; shape (4,), for a batch (..., 4)."""
-        return _frozen(self.values[3:]) if self._batch is None else self._batch[1]
+        return _freeze_array(self.values[3:]) if self._batch is None else self._batch[1]
 
     @property
     def stamps(self) -> NDArray[np.int64] | None:
@@ -271,7 +271,7 @@ def batch_of(
     return _core.new_transform(*IDENTITY, target, source, None, batch, 0, uncertainty)
 
 
-def derived(
+def derive_transform(
     translation: Array,
     quaternion: Array,
     target: str | None,
@@ -300,7 +300,7 @@ def with_body_covariance(transform: TransformValues, matrices: Array, exact_edge
     """Return a pose with covariances along the axes of its source that need no check."""
     covariance = _covariance.from_body(matrices, transform.rotation)
     t, q, stamp = transform.translation, transform.quaternion, any_stamp(transform)
-    return derived(t, q, transform.target, transform.source, stamp, covariance, exact_edges)
+    return derive_transform(t, q, transform.target, transform.source, stamp, covariance, exact_edges)
 
 
 def pose_rows(transform: TransformValues, shape: tuple[int, ...]) -> tuple[Array, Array]:
@@ -388,7 +388,7 @@ def _contiguous(rows: Array) -> Array:
     return rows if rows.strides[-1] == rows.itemsize else np.ascontiguousarray(rows)
 
 
-def _frozen(values: tuple[float, ...]) -> Array:
+def _freeze_array(values: tuple[float, ...]) -> Array:
     """Return a read-only array, because writing to this copy would not change the transform."""
     array = np.array(values)
     array.setflags(write=False)

@@ -3,8 +3,8 @@
 
 The package is built in layers:
 
-- A `Forest` contains the frames in drawing order, each below its parent, with the statistics of its edges. `grow`
-  builds it from an observation (`coframe.doctor`), live or recorded; the statistics are those of
+- A `Forest` contains the frames in drawing order, each below its parent, with the statistics of its edges.
+  `build_forest` makes it from an observation (`coframe.doctor`), live or recorded. The statistics are those of
   `coframe.doctor.statistics`.
 - `labels` formats the statistics of a frame as short lines, and makes any name printable.
 - Each format has a module: `text` (rows for a terminal), `graphviz`, `mermaid`, `plain` (data for JSON), and `svg`,
@@ -12,11 +12,11 @@ The package is built in layers:
 - `changes` compares two forests.
 """
 
-from coframe.tree_drawing._build import grow
+from coframe.tree_drawing._build import build_forest
 from coframe.tree_drawing._forest import Forest, Frame
 from coframe.tree_drawing.changes import Change, changes
 
-__all__ = ["Change", "Forest", "Frame", "changes", "grow"]
+__all__ = ["Change", "Forest", "Frame", "build_forest", "changes"]
 
 
 def __dir__() -> list[str]:

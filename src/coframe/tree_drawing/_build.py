@@ -14,10 +14,10 @@ if TYPE_CHECKING:
     from coframe.doctor import Observation
     from coframe.doctor.statistics import EdgeStatistics
 
-__all__ = ["grow"]
+__all__ = ["build_forest"]
 
 
-def grow(observation: Observation) -> Forest:
+def build_forest(observation: Observation) -> Forest:
     """Return the trees as they are in a buffer at the end of the observation."""
     parents = {child: edge.parent for child, edge in observation.last.items()}
     # Children are drawn in alphabetical order.

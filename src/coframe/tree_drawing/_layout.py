@@ -10,7 +10,7 @@ import unicodedata
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe._output.escaping import display_name
-from coframe.tree_drawing.labels import alarms, figures, summary
+from coframe.tree_drawing.labels import figures, position_problems, summary
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -28,7 +28,7 @@ _COLORS = {
     "stale": ("#fdeceb", ALARM),
 }
 _LINE = "#5c6873"
-_NAME, _SMALL, _TITLE = 14.0, 11.0, 20.0  # font sizes
+_NAME, _SMALL_FONT, _TITLE = 14.0, 11.0, 20.0  # font sizes
 _LINE_SPACING = 1.35
 _PAD = 9.0
 _WIDE_CHARACTERS = frozenset("mwMW@%\N{HORIZONTAL ELLIPSIS}")
@@ -108,7 +108,7 @@ def draw(forest: Forest, title: str, spell: Callable[[str], str] = str) -> TreeL
         title: The title above the trees.
         spell: Replaces characters that the format does not support.
     """
-    blocks = {name: _block(frame, spell) for name, frame in forest.frames.items()}
+    blocks = {name: _make_block(frame, spell) for name, frame in forest.frames.items()}
     shapes: list[Box | Line | Label] = []
     shapes.append(Label(_MARGIN, _MARGIN + _TITLE, spell(display_name(title)), _TITLE, bold=True))
     shapes.append(Label(_MARGIN, _MARGIN + _TITLE + 22.0, spell(summary(forest)), _NAME, FAINT))
@@ -120,7 +120,7 @@ def draw(forest: Forest, title: str, spell: Callable[[str], str] = str) -> TreeL
             heading = spell(f"Tree {number} of {len(forest.trees)}: {display_name(tree[0].name)}")
             shapes.append(Label(_MARGIN, top, heading, _NAME, FAINT, bold=True))
             top += 16.0
-        top = _place(tree, blocks, top, places) + _TREE_GAP
+        top = _place_frames(tree, blocks, top, places) + _TREE_GAP
     shapes += _edges(forest, places)
     shapes += _alarming_edges(forest, places)
     for name, frame in forest.frames.items():
@@ -130,11 +130,13 @@ def draw(forest: Forest, title: str, spell: Callable[[str], str] = str) -> TreeL
     return TreeLayout(max(right, written) + _MARGIN, top - _TREE_GAP + _MARGIN, shapes)
 
 
-def _block(frame: Frame, spell: Callable[[str], str]) -> _Block:
+def _make_block(frame: Frame, spell: Callable[[str], str]) -> _Block:
     name = spell(display_name(frame.name))
-    lines = [(spell(line), FAINT) for line in figures(frame)] + [(spell(line), ALARM) for line in alarms(frame)]
-    width = max([_width(name, _NAME, bold=True), *(_width(line, _SMALL) for line, _ in lines)])
-    return _Block(name, lines, width + 2 * _PAD, (_NAME + _SMALL * len(lines)) * _LINE_SPACING + _PAD)
+    lines = [(spell(line), FAINT) for line in figures(frame)] + [
+        (spell(line), ALARM) for line in position_problems(frame)
+    ]
+    width = max([_width(name, _NAME, bold=True), *(_width(line, _SMALL_FONT) for line, _ in lines)])
+    return _Block(name, lines, width + 2 * _PAD, (_NAME + _SMALL_FONT * len(lines)) * _LINE_SPACING + _PAD)
 
 
 def _width(text: str, size: float, bold: bool = False) -> float:
@@ -154,7 +156,7 @@ def _columns(tree: list[Frame], blocks: dict[str, _Block]) -> list[float]:
     return left
 
 
-def _place(tree: list[Frame], blocks: dict[str, _Block], top: float, places: dict[str, _Place]) -> float:
+def _place_frames(tree: list[Frame], blocks: dict[str, _Block], top: float, places: dict[str, _Place]) -> float:
     """Place the frames of a tree, and return its lower end.
 
     A frame has as much height as all its children, or its own height if that is larger, and is centerd between its
@@ -214,7 +216,7 @@ def _frame(frame: Frame, block: _Block, place: _Place) -> Iterator[Box | Label]:
     base = place.y + _PAD / 2 + _NAME
     yield Label(place.x + _PAD, base, block.name, _NAME, bold=True)
     for number, (line, color) in enumerate(block.lines, 1):
-        yield Label(place.x + _PAD, base + number * _SMALL * _LINE_SPACING, line, _SMALL, color)
+        yield Label(place.x + _PAD, base + number * _SMALL_FONT * _LINE_SPACING, line, _SMALL_FONT, color)
 
 
 def _legend(top: float) -> Iterator[Box | Label]:
@@ -226,5 +228,5 @@ def _legend(top: float) -> Iterator[Box | Label]:
         ("stale", "stale: no recent transform"),
     ):
         yield Box(x, top, 18.0, 12.0, *_COLORS[kind])
-        yield Label(x + 24.0, top + 10.0, text, _SMALL, FAINT)
-        x += 44.0 + _width(text, _SMALL)
+        yield Label(x + 24.0, top + 10.0, text, _SMALL_FONT, FAINT)
+        x += 44.0 + _width(text, _SMALL_FONT)

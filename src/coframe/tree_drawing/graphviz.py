@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from coframe._output.escaping import display_name
-from coframe.tree_drawing.labels import alarms, edge_statistics, figures, summary
+from coframe.tree_drawing.labels import edge_statistics, figures, position_problems, summary
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -44,7 +44,7 @@ def _edges(forest: Forest, ids: dict[str, str]) -> Iterator[str]:
     for frame in forest.frames.values():
         if frame.parent:
             style = _style(forest, frame)
-            label = _quoted([*figures(frame), *alarms(frame)])
+            label = _quoted([*figures(frame), *position_problems(frame)])
             yield f"  {_quoted([ids[frame.parent]])} -> {_quoted([ids[frame.name]])} [label={label}{style}];"
         for parent, edges in _group_by_parent(frame.other_edges).items():
             lines = [line for edge in edges[:_MAX_LISTED] for line in edge_statistics(edge)]

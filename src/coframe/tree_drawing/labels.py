@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from coframe.doctor.statistics import EdgeStatistics
     from coframe.tree_drawing._forest import Forest, Frame
 
-__all__ = ["alarms", "edge_statistics", "figures", "stamps_off", "summary"]
+__all__ = ["edge_statistics", "figures", "position_problems", "stamp_offset_text", "summary"]
 
 _MAX_LISTED_EDGES = 5
 
@@ -25,13 +25,13 @@ def figures(frame: Frame) -> list[str]:
     return [*found, f"and {count(more, 'more publisher')}"] if more > 0 else found
 
 
-def alarms(frame: Frame) -> list[str]:
+def position_problems(frame: Frame) -> list[str]:
     """Return problems with the position of a frame: it is in a loop, is stale, or also has other parents."""
     found = [f"in a loop: below {display_name(frame.parent)}"] if frame.is_root and frame.parent else []
     if frame.silence is not None:
         found.append(f"stale: no transform for {duration(frame.silence)}")
     if frame.offset is not None:
-        found.append(stamps_off(frame.offset))
+        found.append(stamp_offset_text(frame.offset))
     found += [
         f"also below {display_name(edge.parent)}{_publisher_suffix(edge)}"
         for edge in frame.other_edges[:_MAX_LISTED_EDGES]
@@ -40,7 +40,7 @@ def alarms(frame: Frame) -> list[str]:
     return [*found, f"and {more} more"] if more > 0 else found
 
 
-def stamps_off(offset: ClockOffset) -> str:
+def stamp_offset_text(offset: ClockOffset) -> str:
     """Return how far stamps are off the clock of the others."""
     return f"stamps {offset.size} {offset.direction} the clock"
 

@@ -7,7 +7,7 @@ import json
 from typing import TYPE_CHECKING
 
 from coframe._output.escaping import display_name
-from coframe.tree_drawing.labels import alarms, figures, summary
+from coframe.tree_drawing.labels import figures, position_problems, summary
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -42,7 +42,7 @@ def _trees(forest: Forest) -> Iterator[str]:
     for tree in forest.by_tree():
         yield f'  subgraph t{names[tree[0].name]}["tree of {_escaped(display_name(tree[0].name))}"]'
         for frame in tree:
-            label = "<br/>".join(map(_escaped, [display_name(frame.name), *figures(frame), *alarms(frame)]))
+            label = "<br/>".join(map(_escaped, [display_name(frame.name), *figures(frame), *position_problems(frame)]))
             yield f'    {names[frame.name]}["{label}"]:::{frame.kind}'
         yield "  end"
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from coframe._output.escaping import display_name
 from coframe.time import MILLISECOND
-from coframe.tree_drawing.labels import stamps_off
+from coframe.tree_drawing.labels import stamp_offset_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -59,7 +59,7 @@ def _rows(frame: Frame, last: list[bool]) -> Iterator[Row]:
     if frame.is_root and frame.parent:
         yield Row(f"{below}in a loop: below ", display_name(frame.parent), ("",) * 6, frame.name, "other")
     if frame.offset is not None:
-        yield Row(below, stamps_off(frame.offset), ("",) * 6, frame.name, "other")
+        yield Row(below, stamp_offset_text(frame.offset), ("",) * 6, frame.name, "other")
     for edge in frame.other_edges:
         yield Row(f"{below}also below ", display_name(edge.parent), _cells(edge), frame.name, "other")
 

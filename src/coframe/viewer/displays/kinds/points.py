@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from coframe.sensors import project_scan
-from coframe.sensors.layout import field_of, grid_of
+from coframe.sensors.layout import field_of, grid_shape
 from coframe.time import stamp_ns
 from coframe.viewer.displays._drawing import MAX_NEAR, CannotDrawError, Drawing, Options, Vector, far_offset
 from coframe.viewer.displays._renderers import draw_each_message
