@@ -25,7 +25,7 @@ __all__ = [
     "Behavior",
     "Definition",
     "Distribution",
-    "Removed",
+    "RemovedInterface",
     "current",
     "follows",
     "hide_removed_types",
@@ -72,7 +72,7 @@ class Definition(NamedTuple):
     what: str
 
 
-class Removed(NamedTuple):
+class RemovedInterface(NamedTuple):
     """An interface that a distribution no longer has.
 
     Attributes:
@@ -126,10 +126,10 @@ DEFINITIONS: Final[Mapping[str, Definition]] = {
 }
 """The definitions that differ, by type. `interfaces` has those of the default distribution."""
 
-REMOVED: Final[Mapping[str, Removed]] = {
-    "turtlesim/": Removed(_KILTED, "They are in the package turtlesim_msgs."),
-    "actionlib_msgs/": Removed(_LYRICAL, "Use action_msgs."),
-    "geometry_msgs/msg/Pose2D": Removed(_LYRICAL, "Use geometry_msgs/msg/Pose, or a message of your own."),
+REMOVED: Final[Mapping[str, RemovedInterface]] = {
+    "turtlesim/": RemovedInterface(_KILTED, "They are in the package turtlesim_msgs."),
+    "actionlib_msgs/": RemovedInterface(_LYRICAL, "Use action_msgs."),
+    "geometry_msgs/msg/Pose2D": RemovedInterface(_LYRICAL, "Use geometry_msgs/msg/Pose, or a message of your own."),
 }
 """What distributions no longer have, by type, or by package with a slash at its end."""
 

@@ -166,7 +166,7 @@ def test_ctrl_c_before_completion_exits_with_130(bag, tmp_path, monkeypatch):
     monkeypatch.setattr(bag_repair._Repair, "_repair_message", interrupted)
     assert run("bag", "fix", bag, tmp_path / "new")[0] == 130
     assert list(tmp_path.iterdir()) == []
-    monkeypatch.setattr(contents._Reading, "read", interrupted)
+    monkeypatch.setattr(contents._ReadState, "read", interrupted)
     for command in (("bag", "info", bag), ("lookup", bag, "odom", "base"), ("trajectory", bag, "odom", "base")):
         assert run(*command) == (130, "", "")
 

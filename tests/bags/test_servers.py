@@ -41,7 +41,7 @@ def run(tmp_path):
 @pytest.fixture
 def impatient(monkeypatch):
     monkeypatch.setattr(_http, "MAX_WAIT", 0.4)
-    monkeypatch.setattr(_http, "_PAUSES", (0.01, 0.01))
+    monkeypatch.setattr(_http, "_RETRY_DELAYS", (0.01, 0.01))
 
 
 def large(path, minutes=20):

@@ -387,7 +387,7 @@ def test_rate_below_that_of_the_scans_that_need_it(findings, rate, scans, child,
 def test_topic_that_never_publishes(topic, kind, messages, seconds, latched, found):
     publishers = (ObservedEndpoint("/driver", transient_local=latched),)
     facts = TopicFacts(topic, kind, messages, publishers, observed=seconds * SECOND)
-    empty = Transforms.joined([], ())
+    empty = Transforms.join_batches([], ())
     report = diagnose(Observation(True, START, START + 10 * SECOND, empty, topics={topic: facts}))
     assert [finding.code for finding in report.findings] == ["TF026"] * found
     if found:

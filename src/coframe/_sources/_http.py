@@ -24,9 +24,9 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple, NoReturn
 from urllib.parse import SplitResult, quote, unquote, urljoin, urlsplit
 
 from coframe._base_error import CoframeError
-from coframe._sources.block_cache import BLOCK
+from coframe._sources.block_cache import BLOCK_SIZE
 from coframe._sources.remote_error import RemoteFileError
-from coframe._sources.urls import HTTP, without_credentials
+from coframe._sources.urls import HTTP, remove_credentials
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -40,15 +40,15 @@ MIN_SPEED: Final = 20_000  # bytes per second; a slower response is given up
 MAX_REDIRECTS: Final = 10
 MAX_TRIES: Final = 3
 MAX_URL: Final = 8000  # characters
-_PIECE: Final = 256 << 10
-_PAUSES: Final = (0.2, 1.0)  # seconds before the second and third try
-_RANGE: Final = re.compile(r"bytes (\d{1,19})-(\d{1,19})/(\d{1,19})", re.ASCII)
-_UNSATISFIED: Final = re.compile(r"bytes \*/(\d{1,19})", re.ASCII)
+_READ_BYTES: Final = 256 << 10
+_RETRY_DELAYS: Final = (0.2, 1.0)  # seconds before the second and third try
+_CONTENT_RANGE: Final = re.compile(r"bytes (\d{1,19})-(\d{1,19})/(\d{1,19})", re.ASCII)
+_UNSATISFIED_RANGE: Final = re.compile(r"bytes \*/(\d{1,19})", re.ASCII)
 _MAX_SIZE: Final = 1 << 62
-_SAFE: Final = "%/:=&?~#+!$,;'@()*[]|"  # characters of a URL that stay as they are
+_UNQUOTED_CHARACTERS: Final = "%/:=&?~#+!$,;'@()*[]|"  # characters of a URL that stay as they are
 _NETWORK_ERRORS: Final = (OSError, http.client.HTTPException, ValueError)
-_AGAIN: Final = {408, 425, 429, 500, 502, 503, 504}
-_REASONS: Final = {
+_RETRY_STATUSES: Final = {408, 425, 429, 500, 502, 503, 504}
+_STATUS_REASONS: Final = {
     401: ("the server requires a user name and a password", "Write https://USER:PASSWORD@HOST/..."),
     403: ("the server refuses access", "Check your permission; a signed URL may have expired."),
     404: ("there is no such file on the server", "Check the URL."),
@@ -58,7 +58,7 @@ _REASONS: Final = {
 }
 
 
-class _Answer(NamedTuple):
+class _RangeResponse(NamedTuple):
     """A response whose body has not been read."""
 
     response: http.client.HTTPResponse
@@ -70,7 +70,7 @@ class _Answer(NamedTuple):
     version: tuple[str, ...]  # the headers that change with the file
 
 
-class _BrokenError(CoframeError):
+class _InterruptedError(CoframeError):
     """A response that ended too early or is invalid; the request may be repeated."""
 
 
@@ -89,7 +89,7 @@ class HttpRanges:
     """
 
     def __init__(self, url: str) -> None:
-        self.name = without_credentials(url)
+        self.name = remove_credentials(url)
         self._connection: http.client.HTTPConnection | None = None
         self._socket: socket.socket | None = None
         self._process = os.getpid()
@@ -102,7 +102,7 @@ class HttpRanges:
         self._open()
 
     def _open(self) -> None:
-        answer, data = self._try(self._begin)
+        answer, data = self._try_request(self._start_response)
         self.is_ranged = answer.status == 206 and not answer.encoding and answer.total is not None
         if answer.status == 416:
             self.is_ranged = True
@@ -110,14 +110,14 @@ class HttpRanges:
             self.size, self.beginning = answer.total or 0, data
         self.version = answer.version
 
-    def _begin(self) -> tuple[_Answer, bytes]:
-        answer = self._request(0, BLOCK)
+    def _start_response(self) -> tuple[_RangeResponse, bytes]:
+        answer = self._request(0, BLOCK_SIZE)
         if answer.status != 206 or answer.encoding or answer.total is None:
             self.close()
             return answer, b""
         if answer.start:
-            raise _BrokenError(f"the server sent its bytes from {answer.start} on instead of the first ones")
-        return answer, self._body(answer, BLOCK)
+            raise _InterruptedError(f"the server sent its bytes from {answer.start} on instead of the first ones")
+        return answer, self._body(answer, BLOCK_SIZE)
 
     def read_range(self, start: int, end: int) -> bytes:
         """Return the bytes from ``start`` to ``end``; servers may divide a range."""
@@ -125,19 +125,19 @@ class HttpRanges:
             return self.beginning[:end]
         parts: list[bytes] = []
         while start < end:
-            data: bytes = self._try(partial(self._part, start, end))
+            data: bytes = self._try_request(partial(self._read_part, start, end))
             parts.append(data)
             start += len(data)
         return parts[0] if len(parts) == 1 else b"".join(parts)
 
-    def _part(self, start: int, end: int) -> bytes:
+    def _read_part(self, start: int, end: int) -> bytes:
         answer = self._request(start, end)
         if answer.status != 206 or answer.encoding:
             self._fail("the server has sent ranges before, but sends no more")
         if answer.version != self.version or answer.total != self.size:
             self._fail("it has changed on the server since it was opened", "Open it again.", errno.ESTALE)
         if answer.start != start or not start < answer.end <= max(end, start + 1):
-            raise _BrokenError(f"the server sent bytes {answer.start} to {answer.end} instead of {start} to {end}")
+            raise _InterruptedError(f"the server sent bytes {answer.start} to {answer.end} instead of {start} to {end}")
         return self._body(answer, answer.end - start)
 
     def download(
@@ -153,7 +153,7 @@ class HttpRanges:
         Raises:
             RemoteFileError: The file cannot be read completely, or is too large.
         """
-        answer = self._try(partial(self._request, None, None))
+        answer = self._try_request(partial(self._request, None, None))
         if answer.status != 200:
             self._fail(f"the server answered with the status {answer.status}")
         limit = f"it is larger than the maximum of {max_bytes >> 30} GiB for a server that does not send ranges"
@@ -164,7 +164,7 @@ class HttpRanges:
             self._fail(f"the server sends it packed with {answer.encoding[:30]!r}", "Download it, and open the file.")
         received = written = 0
         try:
-            for piece in self._pieces(answer, answer.total):
+            for piece in self._read_pieces(answer, answer.total):
                 received += len(piece)
                 for data in unpack(piece):
                     written += len(data)
@@ -172,7 +172,7 @@ class HttpRanges:
                         self._fail(limit, "Download it with another program, and open the file.", errno.EFBIG)
                     write(data)
                 progress(received, answer.total or 0)
-        except (_BrokenError, zlib.error) as error:
+        except (_InterruptedError, zlib.error) as error:
             self._fail(f"the download failed: {error}", "Try again.")
         except RemoteFileError:
             raise
@@ -187,7 +187,7 @@ class HttpRanges:
         if connection is not None and self._process == os.getpid():
             connection.close()
 
-    def _try(self, function: Callable[[], Any]) -> Any:
+    def _try_request(self, function: Callable[[], Any]) -> Any:
         """Call a function; repeat it after errors that may be temporary."""
         for attempt in range(MAX_TRIES):
             try:
@@ -197,16 +197,16 @@ class HttpRanges:
                 is_redirected = self._url is not self._origin and attempt == 0  # to an address that may have expired
                 if not (is_redirected or error.errno == errno.EAGAIN) or attempt == MAX_TRIES - 1:
                     raise
-            except (_BrokenError, *_NETWORK_ERRORS) as error:
+            except (_InterruptedError, *_NETWORK_ERRORS) as error:
                 self.close()
                 is_final = attempt == MAX_TRIES - 1 or isinstance(error, ssl.SSLError | socket.gaierror | TimeoutError)
                 if is_final or isinstance(error, UnicodeError | http.client.InvalidURL):
                     self._fail(_reason(error), _hint(error))
             self._url = self._origin  # a redirection may be the problem
-            time.sleep(_PAUSES[attempt])
+            time.sleep(_RETRY_DELAYS[attempt])
         raise AssertionError  # not reached
 
-    def _request(self, start: int | None, end: int | None) -> _Answer:
+    def _request(self, start: int | None, end: int | None) -> _RangeResponse:
         """Send a request, and follow redirects; ``start`` None requests the whole file."""
         for _ in range(MAX_REDIRECTS + 1):
             headers = {"Accept-Encoding": "identity", "User-Agent": "coframe", "Accept": "*/*"}
@@ -215,7 +215,7 @@ class HttpRanges:
             response = self._send(headers)
             status = response.status
             if status not in {301, 302, 303, 307, 308}:
-                return self._checked(response)
+                return self._check_response(response)
             self._redirect(response.getheader("Location") or "")
         return self._fail(f"the server redirects more than {MAX_REDIRECTS} times")
 
@@ -231,56 +231,56 @@ class HttpRanges:
             target = target._replace(netloc=f"{user}{at}{target.netloc.rpartition('@')[2]}")
         self._url = target
 
-    def _checked(self, response: http.client.HTTPResponse) -> _Answer:
+    def _check_response(self, response: http.client.HTTPResponse) -> _RangeResponse:
         status, encoding = response.status, (response.getheader("Content-Encoding") or "").strip().lower()
         version = (response.getheader("ETag") or "", response.getheader("Last-Modified") or "")
         encoding = "" if encoding == "identity" else encoding
         stated = response.getheader("Content-Range") or ""
         if status == 206:
-            match = _RANGE.fullmatch(stated.strip())
+            match = _CONTENT_RANGE.fullmatch(stated.strip())
             if match is None and "/*" not in stated:
-                raise _BrokenError(f"the server answered with an invalid range, {stated[:60]!r}")
+                raise _InterruptedError(f"the server answered with an invalid range, {stated[:60]!r}")
             if match is None:
-                return _Answer(response, status, 0, 0, None, encoding, version)
+                return _RangeResponse(response, status, 0, 0, None, encoding, version)
             start, last, total = map(int, match.groups())
             if not start <= last < total <= _MAX_SIZE:
-                raise _BrokenError(f"the server answered with an invalid range, {stated[:60]!r}")
-            return _Answer(response, status, start, last + 1, total, encoding, version)
-        if status == 416 and (match := _UNSATISFIED.fullmatch(stated.strip())) and int(match[1]) == 0:
+                raise _InterruptedError(f"the server answered with an invalid range, {stated[:60]!r}")
+            return _RangeResponse(response, status, start, last + 1, total, encoding, version)
+        if status == 416 and (match := _UNSATISFIED_RANGE.fullmatch(stated.strip())) and int(match[1]) == 0:
             self.close()
-            return _Answer(response, status, 0, 0, 0, "", version)
+            return _RangeResponse(response, status, 0, 0, 0, "", version)
         if status == 200:
             length = response.getheader("Content-Length") or ""
             size = int(length) if length.isascii() and length.isdigit() and len(length) < 19 else None
-            return _Answer(response, status, 0, size or 0, size, encoding, version)
+            return _RangeResponse(response, status, 0, size or 0, size, encoding, version)
         self.close()
-        reason, hint = _REASONS.get(status, (f"the server answered with the status {status}", ""))
-        number = errno.EAGAIN if status in _AGAIN else errno.ENOENT if status in {404, 410} else errno.EACCES
+        reason, hint = _STATUS_REASONS.get(status, (f"the server answered with the status {status}", ""))
+        number = errno.EAGAIN if status in _RETRY_STATUSES else errno.ENOENT if status in {404, 410} else errno.EACCES
         if status == 416:
             reason = "the server does not have the bytes that it should have by its own account"
         raise RemoteFileError.because(self.name, reason, hint, number)
 
-    def _body(self, answer: _Answer, most: int) -> bytes:
+    def _body(self, answer: _RangeResponse, most: int) -> bytes:
         """Return the body of a response, at most ``most`` bytes of it."""
         wanted = min(answer.end - answer.start, most)
-        data = b"".join(self._pieces(answer, wanted))
+        data = b"".join(self._read_pieces(answer, wanted))
         if answer.end - answer.start > wanted or not answer.response.isclosed():
             self.close()  # The rest is not needed.
         return data
 
-    def _pieces(self, answer: _Answer, size: int | None) -> Any:
+    def _read_pieces(self, answer: _RangeResponse, size: int | None) -> Any:
         """Yield the body in pieces: exactly ``size`` bytes, or all if it is None."""
         left = size
         with _Deadline(self._socket, size) as deadline:
             while left is None or left > 0:
-                piece = answer.response.read1(_PIECE if left is None else min(left, _PIECE))
+                piece = answer.response.read1(_READ_BYTES if left is None else min(left, _READ_BYTES))
                 if not piece:
                     break
                 deadline.add(len(piece))
                 left = None if left is None else left - len(piece)
                 yield piece
         if left:
-            raise _BrokenError(f"the server closed the connection after {(size or 0) - left} of {size} bytes")
+            raise _InterruptedError(f"the server closed the connection after {(size or 0) - left} of {size} bytes")
         if left == 0 and answer.response.length == 0:
             answer.response.read()  # lets the connection be used again
 
@@ -291,7 +291,7 @@ class HttpRanges:
         proxy = _proxy(url)
         if user := _authorization(url):
             headers["Authorization"] = user
-        target = quote(f"{url.path or '/'}{'?' if url.query else ''}{url.query}", safe=_SAFE)
+        target = quote(f"{url.path or '/'}{'?' if url.query else ''}{url.query}", safe=_UNQUOTED_CHARACTERS)
         if proxy is not None and url.scheme == "http":
             target = f"http://{url.netloc.rpartition('@')[2]}{target}"
             if user := _authorization(proxy):
@@ -316,7 +316,7 @@ class HttpRanges:
             if host:
                 host.encode("idna")
         except (ValueError, UnicodeError) as error:
-            self._fail(f"the URL is not valid: {without_credentials(str(error))}")
+            self._fail(f"the URL is not valid: {remove_credentials(str(error))}")
         if len(url) > MAX_URL:
             reason = f"the URL has more than {MAX_URL} characters"
         elif parts.scheme.lower() not in HTTP:
@@ -340,7 +340,7 @@ class _Deadline:
     def __init__(self, sock: socket.socket | None, size: int | None) -> None:
         self.has_passed = False
         self._socket = sock
-        self._begin = time.monotonic()
+        self._start_response = time.monotonic()
         self._received = 0
         self._endless = size is None
         self._timer = threading.Timer(MAX_WAIT + (size or 0) / MIN_SPEED, self._pass)
@@ -350,7 +350,7 @@ class _Deadline:
     def add(self, received: int) -> None:
         """Count bytes; more of them permit more time."""
         self._received += received
-        if time.monotonic() - self._begin > MAX_WAIT + self._received / MIN_SPEED:
+        if time.monotonic() - self._start_response > MAX_WAIT + self._received / MIN_SPEED:
             self.has_passed = True
             raise TimeoutError
         if self._endless:
@@ -413,7 +413,7 @@ def _unpacker(encoding: str) -> Callable[[bytes], Any] | None:
 
     def unpack(piece: bytes) -> Any:
         while piece:
-            yield unpacking.decompress(piece, _PIECE)
+            yield unpacking.decompress(piece, _READ_BYTES)
             piece = unpacking.unconsumed_tail
 
     return unpack
@@ -432,7 +432,7 @@ def _reason(error: Exception) -> str:
     if isinstance(error, http.client.IncompleteRead):
         return "the server closed the connection too early"
     text = (error.strerror if isinstance(error, OSError) else None) or str(error) or type(error).__name__
-    return without_credentials(" ".join(text.split()))[:200]
+    return remove_credentials(" ".join(text.split()))[:200]
 
 
 def _hint(error: Exception) -> str:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Final, NoReturn
 
 from coframe._process.optional_imports import pip_install
 from coframe._sources.remote_error import RemoteFileError
-from coframe._sources.urls import STORES, scheme_of, without_credentials
+from coframe._sources.urls import STORES, remove_credentials, scheme_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -22,7 +22,7 @@ MIN_SPEED: Final = 20_000  # bytes per second; a slower response is given up
 MAX_FILES: Final = 10_000  # of a folder
 _CHECK_PERIOD: Final = 10.0  # seconds after which it is checked whether the file has changed
 _VERSION_KEYS: Final = ("ETag", "etag", "md5Hash", "generation", "LastModified", "last_modified", "updated", "mtime")
-_CREDENTIALS: Final = {
+_CREDENTIAL_HINTS: Final = {
     "s3": "Set AWS_PROFILE, or AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY; for public data, set FSSPEC_S3_ANON=true.",
     "gs": "Set GOOGLE_APPLICATION_CREDENTIALS; for public data, set FSSPEC_GS_TOKEN=anon.",
     "az": "Set AZURE_STORAGE_ACCOUNT_NAME and AZURE_STORAGE_ACCOUNT_KEY, or AZURE_STORAGE_CONNECTION_STRING.",
@@ -33,7 +33,7 @@ class _Store:
     """The file system of a URL, whose errors become sentences."""
 
     def __init__(self, url: str) -> None:
-        self.name = without_credentials(url)
+        self.name = remove_credentials(url)
         self._scheme = scheme_of(url)
         package = STORES[self._scheme]
         for module in ("fsspec", package):
@@ -121,7 +121,7 @@ def _version(info: dict[str, Any]) -> tuple[str, ...]:
 
 def _reason(error: Exception, scheme: str) -> tuple[str, str, int]:
     """Return why a file cannot be read, what to do, and the number of a similar error of the operating system."""
-    hint = _CREDENTIALS.get({"gcs": "gs", "abfs": "az", "abfss": "az"}.get(scheme, scheme), "")
+    hint = _CREDENTIAL_HINTS.get({"gcs": "gs", "abfs": "az", "abfss": "az"}.get(scheme, scheme), "")
     kind = type(error).__name__
     if isinstance(error, FileNotFoundError):
         return "there is no such file in the store", "Check the URL.", errno.ENOENT
@@ -129,6 +129,6 @@ def _reason(error: Exception, scheme: str) -> tuple[str, str, int]:
         return "the store refuses access", hint, errno.EACCES
     if isinstance(error, TimeoutError) or "Timeout" in kind:
         return "the store does not answer", "Check the network and the address of the store.", errno.ETIMEDOUT
-    text = without_credentials(" ".join(str(error).split()))[:200].rstrip(".") or "no reason given"
+    text = remove_credentials(" ".join(str(error).split()))[:200].rstrip(".") or "no reason given"
     is_absent = "account" in text.lower() and isinstance(error, ValueError)
     return f"{kind}: {text}", hint if is_absent else "", errno.EIO

@@ -21,14 +21,14 @@ from coframe._sources.remote_error import RemoteFileError
 if TYPE_CHECKING:
     from typing_extensions import Buffer
 
-__all__ = ["BLOCK", "MAX_CACHED", "MAX_RANGE", "BlockCache", "ByteRanges", "RangedFile"]
+__all__ = ["BLOCK_SIZE", "MAX_CACHED", "MAX_RANGE", "BlockCache", "ByteRanges", "RangedFile"]
 
-BLOCK: Final = 64 << 10  # bytes; ranges begin and end at multiples of it
+BLOCK_SIZE: Final = 64 << 10  # bytes; ranges begin and end at multiples of it
 MAX_RANGE: Final = 8 << 20  # bytes of one request
 MAX_CACHED: Final = 16 << 30  # bytes, and at most half of the free space for temporary files
 MAX_IN_MEMORY: Final = 16 << 20  # bytes; more are written to a temporary file
-_MAX_BLOCKS: Final = MAX_RANGE // BLOCK
-_TAIL: Final = 256 << 10  # bytes that are read at once at the end of a file, where the index of a recording is
+_MAX_BLOCKS: Final = MAX_RANGE // BLOCK_SIZE
+_TAIL_SIZE: Final = 256 << 10  # bytes that are read at once at the end of a file, where the index of a recording is
 
 
 class ByteRanges(Protocol):
@@ -75,11 +75,11 @@ class BlockCache:
         parts = []
         with self._lock:
             while offset < end:
-                first = offset // BLOCK
-                stop = min(-(-end // BLOCK), first + MAX_RANGE // BLOCK)
+                first = offset // BLOCK_SIZE
+                stop = min(-(-end // BLOCK_SIZE), first + MAX_RANGE // BLOCK_SIZE)
                 self._fetch(first, stop)
                 data = b"".join(map(self._blocks.get, range(first, stop)))
-                part = data[offset - first * BLOCK : end - first * BLOCK]
+                part = data[offset - first * BLOCK_SIZE : end - first * BLOCK_SIZE]
                 parts.append(part)
                 offset += len(part)
         return parts[0] if len(parts) == 1 else b"".join(parts)
@@ -87,13 +87,13 @@ class BlockCache:
     def prefetch(self, offset: int, end: int) -> None:
         """Read a range of at most `MAX_RANGE` bytes with one request, as far as it is not cached."""
         with self._lock:
-            first = offset // BLOCK
-            self._fetch(first, min(-(-min(end, self.ranges.size) // BLOCK), first + _MAX_BLOCKS), ahead=False)
+            first = offset // BLOCK_SIZE
+            self._fetch(first, min(-(-min(end, self.ranges.size) // BLOCK_SIZE), first + _MAX_BLOCKS), ahead=False)
 
     def read_once(self, offset: int, size: int) -> bytes:
         """Return bytes without keeping them."""
         with self._lock:
-            return self._received(offset, min(offset + size, self.ranges.size))
+            return self._cached_bytes(offset, min(offset + size, self.ranges.size))
 
     def close(self) -> None:
         """Close connections, and forget all blocks."""
@@ -109,29 +109,29 @@ class BlockCache:
             return
         begin, last = missing[0], missing[-1] + 1
         if ahead:
-            last = self._extended(begin, last)
-        data = self._received(begin * BLOCK, min(last * BLOCK, self.ranges.size))
+            last = self._prefetch_end(begin, last)
+        data = self._cached_bytes(begin * BLOCK_SIZE, min(last * BLOCK_SIZE, self.ranges.size))
         try:
             for number in range(begin, last):
-                self._blocks.put(number, data[(number - begin) * BLOCK : (number - begin + 1) * BLOCK])
+                self._blocks.put(number, data[(number - begin) * BLOCK_SIZE : (number - begin + 1) * BLOCK_SIZE])
         except OSError as error:
             reason = f"the bytes that were received cannot be written to a temporary file: {error.strerror or error}"
             hint = f"Free space in {tempfile.gettempdir()}, or set TMPDIR to another folder."
             raise RemoteFileError.because(self.ranges.name, reason, hint, errno.ENOSPC) from None
         self._last_end = last
 
-    def _received(self, start: int, end: int) -> bytes:
+    def _cached_bytes(self, start: int, end: int) -> bytes:
         data = self.ranges.read_range(start, end)
         if len(data) != end - start:
             reason = f"only {len(data)} of the {end - start} bytes from byte {start} on were received"
             raise RemoteFileError.because(self.ranges.name, reason)
         return data
 
-    def _extended(self, begin: int, stop: int) -> int:
+    def _prefetch_end(self, begin: int, stop: int) -> int:
         """Return where a request ends: later in a row of reads, and at the end of the file."""
-        blocks = -(-self.ranges.size // BLOCK)
+        blocks = -(-self.ranges.size // BLOCK_SIZE)
         self._ahead = min(2 * self._ahead, _MAX_BLOCKS) if begin == self._last_end else 1
-        if self.ranges.size - begin * BLOCK <= _TAIL:
+        if self.ranges.size - begin * BLOCK_SIZE <= _TAIL_SIZE:
             return blocks
         return min(max(stop, begin + self._ahead), begin + _MAX_BLOCKS, blocks)
 
@@ -143,7 +143,9 @@ class _Blocks:
         self._places: OrderedDict[int, tuple[int, int]] = OrderedDict()  # place in the file, size
         self._file = cast("IO[bytes]", tempfile.SpooledTemporaryFile(MAX_IN_MEMORY))  # noqa: SIM115 - closed below
         weakref.finalize(self, self._file.close)
-        self._most = max(min(MAX_CACHED, shutil.disk_usage(tempfile.gettempdir()).free // 2) // BLOCK, 2 * _MAX_BLOCKS)
+        self._most = max(
+            min(MAX_CACHED, shutil.disk_usage(tempfile.gettempdir()).free // 2) // BLOCK_SIZE, 2 * _MAX_BLOCKS
+        )
 
     def touch(self, number: int) -> bool:
         """Return whether there is a block; it is then the most recently used one."""
@@ -155,7 +157,7 @@ class _Blocks:
     def get(self, number: int) -> bytes:
         """Return a block."""
         place, size = self._places[number]
-        self._file.seek(place * BLOCK)
+        self._file.seek(place * BLOCK_SIZE)
         return self._file.read(size)
 
     def put(self, number: int, data: bytes) -> None:
@@ -166,7 +168,7 @@ class _Blocks:
             place = self._places.popitem(last=False)[1][0]
         else:
             place = len(self._places)
-        self._file.seek(place * BLOCK)
+        self._file.seek(place * BLOCK_SIZE)
         self._file.write(data)
         self._places[number] = place, len(data)
 

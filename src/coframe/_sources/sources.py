@@ -23,7 +23,7 @@ from coframe._files.temporary_folders import temporary_folder
 from coframe._sources._file_objects import DownloadedRanges, FileRanges, check_binary, is_local, name_of
 from coframe._sources.block_cache import MAX_RANGE, BlockCache, RangedFile
 from coframe._sources.remote_error import RemoteFileError
-from coframe._sources.urls import HTTP, SCHEMES, STORES, base_name, scheme_of, without_credentials, without_signature
+from coframe._sources.urls import HTTP, SCHEMES, STORES, base_name, remove_credentials, remove_signature, scheme_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 __all__ = ["MAX_DOWNLOAD", "Location", "Readable", "Source", "as_source", "file_size", "open_file"]
 
 MAX_DOWNLOAD: Final = 64 << 30  # bytes of a file that is copied to this machine because it cannot be read in ranges
-_FREE_SPACE: Final = 1 << 30  # bytes that a copy leaves free on the disk
+_MIN_FREE_SPACE: Final = 1 << 30  # bytes that a copy leaves free on the disk
 
 
 class Source:
@@ -197,7 +197,7 @@ class _FileObject(Source):
     """A file object that can seek."""
 
     def __init__(self, file: BinaryIO) -> None:
-        self._text = without_credentials(name_of(file))
+        self._text = remove_credentials(name_of(file))
         super().__init__(base_name(self._text) or self._text)
         self._file = file
         self.is_remote = not is_local(file)
@@ -228,7 +228,7 @@ class _Url(Source):
         return type(self)(f"{folder}/{name}{mark}{query}")
 
     def __str__(self) -> str:
-        return without_credentials(self._url)
+        return remove_credentials(self._url)
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({str(self)!r})"
@@ -236,7 +236,7 @@ class _Url(Source):
     @property
     def identity(self) -> str:
         """The URL without signatures; it contains other parameters, and must not be shown."""
-        return without_signature(self._url)
+        return remove_signature(self._url)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, _Url) and other._url == self._url
@@ -314,7 +314,7 @@ def as_source(given: Any) -> Readable:
     if isinstance(given, Path | Source):
         return given
     if isinstance(given, str):
-        return _from_text(given)
+        return _parse_location(given)
     if isinstance(given, os.PathLike):
         path = os.fspath(given)
         return Path(os.fsdecode(path))
@@ -324,7 +324,7 @@ def as_source(given: Any) -> Readable:
     return _FileObject(given) if _can_seek(given) else _Memory(_read_all(given))
 
 
-def _from_text(text: str) -> Readable:
+def _parse_location(text: str) -> Readable:
     scheme = scheme_of(text)
     if not scheme:
         return Path(text)
@@ -338,7 +338,7 @@ def _from_text(text: str) -> Readable:
         return _Store(text)
     known = ", ".join(f"{each}://" for each in SCHEMES)
     raise RemoteFileError.because(
-        without_credentials(text), f"URLs of the kind {scheme[:20]}:// are not supported", f"Known: {known}."
+        remove_credentials(text), f"URLs of the kind {scheme[:20]}:// are not supported", f"Known: {known}."
     )
 
 
@@ -371,7 +371,7 @@ def _read_all(file: Any) -> bytes:
 
 def max_download(folder: str | Path) -> int:
     """Return the maximum size of a copy in a folder, in bytes."""
-    return max(min(MAX_DOWNLOAD, shutil.disk_usage(folder).free - _FREE_SPACE), 0)
+    return max(min(MAX_DOWNLOAD, shutil.disk_usage(folder).free - _MIN_FREE_SPACE), 0)
 
 
 def open_file(file: Readable) -> BinaryIO:

@@ -8,15 +8,15 @@ import re
 from typing import Final
 from urllib.parse import unquote, urlsplit
 
-__all__ = ["HTTP", "SCHEMES", "STORES", "base_name", "is_url", "scheme_of", "without_credentials", "without_signature"]
+__all__ = ["HTTP", "SCHEMES", "STORES", "base_name", "is_url", "remove_credentials", "remove_signature", "scheme_of"]
 
 HTTP: Final = ("http", "https")
 # The schemes of object stores, with the package that fsspec uses for each.
 STORES: Final = {"s3": "s3fs", "gs": "gcsfs", "gcs": "gcsfs", "az": "adlfs", "abfs": "adlfs", "abfss": "adlfs"}
 SCHEMES: Final = (*HTTP, *STORES)
 _SCHEME: Final = re.compile(r"\s*([a-z][a-z0-9+.-]*)://", re.IGNORECASE | re.ASCII)
-_PASSWORD: Final = re.compile(r"//[^/@\s]*:[^/@\s]*@")  # not the container of abfs://container@account...
-_SECRET: Final = re.compile(r"[?#]\S*")
+_PASSWORD_PART: Final = re.compile(r"//[^/@\s]*:[^/@\s]*@")  # not the container of abfs://container@account...
+_QUERY_PART: Final = re.compile(r"[?#]\S*")
 # Parameters of signed URLs of S3, Google Cloud Storage, CloudFront and Azure.
 _SIGNATURE: Final = re.compile(
     r"(x-amz-[\w-]+|x-goog-[\w-]+|awsaccesskeyid|googleaccessid|signature|expires|policy|key-pair-id|token|"
@@ -37,17 +37,17 @@ def is_url(text: object) -> bool:
     return bool(scheme_of(text))
 
 
-def without_credentials(url: str) -> str:
+def remove_credentials(url: str) -> str:
     """Return a URL, or a text with URLs, without user names with passwords and without queries, printable."""
-    shown = _SECRET.sub("", _PASSWORD.sub("//", url.strip()))
+    shown = _QUERY_PART.sub("", _PASSWORD_PART.sub("//", url.strip()))
     if len(shown) > _MAX_SHOWN:
         shown = f"{shown[:_MAX_SHOWN]}..."
     return "".join(each if each.isprintable() else "\N{REPLACEMENT CHARACTER}" for each in shown)
 
 
-def without_signature(url: str) -> str:
+def remove_signature(url: str) -> str:
     """Return a URL without its password and the parameters of a signature, which differ each time."""
-    address, _, query = _PASSWORD.sub("//", url.strip()).partition("#")[0].partition("?")
+    address, _, query = _PASSWORD_PART.sub("//", url.strip()).partition("#")[0].partition("?")
     kept = [part for part in query.split("&") if part and not _SIGNATURE.match(part)]
     return f"{address}?{'&'.join(kept)}" if kept else address
 

@@ -97,7 +97,7 @@ def repair(
         ValueError: The prefix begins with a slash.
     """
     robot = _Robot(absolute(tf_topic), absolute(tf_static_topic))
-    rename = _Renaming(prefix, keep, robot)
+    rename = _FrameRenaming(prefix, keep, robot)
     with open_bag(source, progress=partial(progress, "reading")) as recording:
         added = [] if statics is None else _read_statics(statics)
         problems = recording.problems
@@ -124,7 +124,7 @@ class _Robot(NamedTuple):
     tf_static_topic: str
 
 
-class _Renaming:
+class _FrameRenaming:
     """Maps a frame name to its new name: without leading slashes, and with the prefix if there is one."""
 
     def __init__(self, prefix: str, keep: Iterable[str], robot: _Robot) -> None:
@@ -132,12 +132,12 @@ class _Renaming:
         self._robot = robot
         self.change = f"given the prefix {prefix!r}" if prefix else "stripped of leading slashes"
 
-    def on(self, topic: str) -> _Renaming:
+    def on(self, topic: str) -> _FrameRenaming:
         """Return the mapping for the messages on a topic. Only topics of the robot get the prefix."""
         return (
             self
             if self._rename_frame is None or is_robot_topic(topic, *self._robot)
-            else _Renaming("", (), self._robot)
+            else _FrameRenaming("", (), self._robot)
         )
 
     @property
@@ -163,14 +163,14 @@ class _Route(NamedTuple):
     topic: int
     convert: Callable[[bytes], bytes]
     names: FrameNames | None
-    rename: _Renaming
+    rename: _FrameRenaming
     transforms: bool
 
 
 class _Repair:
     """Copies one recording to another and repairs the messages."""
 
-    def __init__(self, recording: Recording, writer: Writer, robot: _Robot, rename: _Renaming) -> None:
+    def __init__(self, recording: Recording, writer: Writer, robot: _Robot, rename: _FrameRenaming) -> None:
         self._recording = recording
         self._writer = writer
         self._robot = robot

@@ -29,7 +29,12 @@ def _in_processes(
 ) -> Iterator[tuple[Job, QueryResult]]:
     workers = min(workers or os.cpu_count() or 1, max(len(jobs), 1))
     for job, result in run_jobs(jobs, workers):
-        yield job, _failed(job, "The process died, perhaps because it ran out of memory.") if result is None else result
+        yield (
+            job,
+            _failed_result(job, "The process died, perhaps because it ran out of memory.")
+            if result is None
+            else result,
+        )
 
 
 def _on_dask(
@@ -41,7 +46,7 @@ def _on_dask(
         futures = {client.submit(function, *job, pure=False): job for job in jobs}
         for future in distributed.as_completed(list(futures)):
             error, job = future.exception(), futures[future]
-            yield job, future.result() if error is None else _failed(job, f"Dask reports: {error}")
+            yield job, future.result() if error is None else _failed_result(job, f"Dask reports: {error}")
 
 
 def _on_ray(
@@ -64,14 +69,14 @@ def _on_ray(
             try:
                 result = ray.get(reference)
             except Exception as error:  # noqa: BLE001 - Ray's own errors: a worker that died, a node that is gone
-                result = _failed(job, f"Ray reports: {' '.join(str(error).split())[:300]}")
+                result = _failed_result(job, f"Ray reports: {' '.join(str(error).split())[:300]}")
             yield job, result
     finally:
         if is_ours:
             ray.shutdown()
 
 
-def _failed(job: Job, error: str) -> QueryResult:
+def _failed_result(job: Job, error: str) -> QueryResult:
     return QueryResult(str(job[0]), error=error, reason="failed")
 
 

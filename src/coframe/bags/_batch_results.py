@@ -125,11 +125,11 @@ class Manifest:
             OSError: It cannot be written.
         """
         recordings = [{**each._asdict(), "omitted": [one._asdict() for one in each.omitted]} for each in self._results]
-        content = {"query": self._query, "recordings": [_renamed(each) for each in recordings]}
+        content = {"query": self._query, "recordings": [_renamed_values(each) for each in recordings]}
         write_complete(self._path, json.dumps(content, indent=1).encode())
         self._written = time.monotonic()
 
 
-def _renamed(values: dict[str, Any]) -> dict[str, Any]:
+def _renamed_values(values: dict[str, Any]) -> dict[str, Any]:
     """Return the values of a result with the number of rows first and under its own name."""
     return {"bag": values.pop("bag"), "file": values.pop("file"), "rows": values.pop("poses"), **values}

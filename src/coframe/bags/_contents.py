@@ -117,7 +117,7 @@ def read_contents(
         RecordingError: Nothing can be read, or a chosen topic other than /tf and /tf_static does not exist.
         ValueError: The window is not valid.
     """
-    reading = _Reading(path, choice, window, progress or (lambda _done, _total: None), on_transforms)
+    reading = _ReadState(path, choice, window, progress or (lambda _done, _total: None), on_transforms)
     try:
         with collection_paused():
             return reading.read()
@@ -129,7 +129,7 @@ def read_contents(
         raise
 
 
-class _Reading:
+class _ReadState:
     def __init__(
         self,
         path: Readable,

@@ -157,7 +157,7 @@ def _candidates(folder: Path, metadata: dict[str, Any], problems: Problems) -> l
 def _is_candidate(file: Path, problems: Problems) -> bool:
     is_named_so = has_known_suffix(file)
     try:
-        start = _beginning(file)
+        start = _read_beginning(file)
     except FileNotFoundError:  # A running recorder renames its metadata between the listing and this line.
         return False
     except OSError as error:
@@ -167,7 +167,7 @@ def _is_candidate(file: Path, problems: Problems) -> bool:
     return is_named_so or any(matches(each, file, start) for each in formats())
 
 
-def _beginning(file: Readable) -> bytes:
+def _read_beginning(file: Readable) -> bytes:
     if isinstance(file, Source):
         return file.read(0, BEGINNING)
     with open_regular(file) as opened:
@@ -183,7 +183,7 @@ def _natural_sort_key(file: Path) -> list[tuple[int, int, str]]:
 
 
 def _open(file: Readable, problems: Problems, closing: ExitStack) -> Storage | None:
-    start = _beginning(file)
+    start = _read_beginning(file)
     if start.startswith(_ZSTD):
         path = file.copy(closing) if isinstance(file, Source) else file
         file, start = _unpack_file(path, problems, closing)
@@ -235,7 +235,7 @@ def _unpack_file(file: Path, problems: Problems, closing: ExitStack) -> tuple[Pa
             whole.write(piece)
         if source.is_implausible:
             problems.add(f"{file.name} is damaged: {packed.tell()} bytes unpack to only {whole.tell()}")
-    return target, _beginning(target)
+    return target, _read_beginning(target)
 
 
 class _PackedFile:

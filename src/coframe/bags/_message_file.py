@@ -26,14 +26,14 @@ if TYPE_CHECKING:
     from coframe.bags._recording_format import RecordingFormat
     from coframe.messages import Message
 
-__all__ = ["MessageFile", "serialized"]
+__all__ = ["MessageFile", "serialize_messages"]
 
 _BATCH_MESSAGES = 2000
 _BATCH_BYTES = 16 << 20
 _MAX_TIME = 1 << 63
 
 
-def serialized(messages: Iterable[tuple[str, int, Message]]) -> Iterator[tuple[Channel, int, bytes]]:
+def serialize_messages(messages: Iterable[tuple[str, int, Message]]) -> Iterator[tuple[Channel, int, bytes]]:
     """Yield messages as CDR, with one channel for each topic and type.
 
     Raises:
@@ -50,7 +50,7 @@ def serialized(messages: Iterable[tuple[str, int, Message]]) -> Iterator[tuple[C
         yield channels[topic, type_], received, serialize(message)
 
 
-class _Pending(NamedTuple):
+class _PendingBatch(NamedTuple):
     """Messages of one channel that the next batch contains."""
 
     received: list[int]
@@ -80,10 +80,10 @@ class MessageFile(Storage):
     def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
         """Yield all messages. An exception of the format ends the file and is added to the problems."""
         del wanted
-        pending: dict[Channel, _Pending] = {}
+        pending: dict[Channel, _PendingBatch] = {}
         size = count = 0
         for channel, received, data in self._valid_messages():
-            lists = pending.setdefault(channel, _Pending([], [], []))
+            lists = pending.setdefault(channel, _PendingBatch([], [], []))
             lists.received.append(received)
             lists.positions.append(self._append(data))
             lists.messages.append(data)
@@ -149,7 +149,7 @@ def _integer(received: Any) -> int | None:
     return int(time) if 0 <= time < _MAX_TIME else None
 
 
-def _batches(pending: dict[Channel, _Pending]) -> Iterator[Batch]:
+def _batches(pending: dict[Channel, _PendingBatch]) -> Iterator[Batch]:
     for channel, (received, positions, messages) in pending.items():
         yield Batch(
             channel,

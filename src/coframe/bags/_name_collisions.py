@@ -75,7 +75,9 @@ def _frames(recordings: Sequence[Recording], merged: MergedNames, one: int, othe
     """Yield the moving frames that both recordings contain with different stamps, on topics that are joined."""
     pair = [_buffers(recordings[number], merged, number) for number in (one, other)]
     for topic in sorted(pair[0].keys() & pair[1].keys()):
-        first, second = (_moving(each[topic], merged.frame(n)) for each, n in zip(pair, (one, other), strict=True))
+        first, second = (
+            _moving_edges(each[topic], merged.frame(n)) for each, n in zip(pair, (one, other), strict=True)
+        )
         for name in islice(sorted(first.keys() & second.keys()), _MAX_EDGES):
             stamps = (_edge_stamps(each[topic], edges[name]) for each, edges in zip(pair, (first, second), strict=True))
             if _differ(*stamps):
@@ -87,7 +89,7 @@ def _buffers(recording: Recording, merged: MergedNames, number: int) -> dict[str
     return {merged.topic(number, f"{namespace}/tf"): buffer for namespace, buffer in recording.buffers.items()}
 
 
-def _moving(buffer: Buffer, rename: Callable[[str], str]) -> dict[str, tuple[str, str]]:
+def _moving_edges(buffer: Buffer, rename: Callable[[str], str]) -> dict[str, tuple[str, str]]:
     """Return the moving edges by the new names of their child frames."""
     edges = [edge for edge in buffer.edges() if edge.parent and not edge.static]
     return {rename(edge.child): (edge.parent, edge.child) for edge in edges}

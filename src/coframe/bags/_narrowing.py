@@ -10,7 +10,7 @@ import numpy as np
 
 from coframe import time
 from coframe.bags._time_window import TimeWindow
-from coframe.bags.tables.columns import FieldSource, column, one_or_more
+from coframe.bags.tables.columns import FieldSource, column, column_list
 from coframe.bags.time_points import parse_time_point
 from coframe.bags.transforms import is_static
 from coframe.errors import CoframeError
@@ -94,7 +94,7 @@ def _nanoseconds(when: StampLike | str | None, recording: Recording) -> int | No
 
 def _is_prompt(part: Recording, query: TableQuery) -> bool:
     """Return whether the messages of a part were received soon after their stamps."""
-    parsed = [each.parsed for each in map(column, one_or_more(query.columns))]
+    parsed = [each.parsed for each in map(column, column_list(query.columns))]
     names = {each.topic for each in parsed if isinstance(each, FieldSource)} | ({query.at} if query.at else set())
     topics = [topic for topic in part.topics if topic.removeprefix("/") in {each.removeprefix("/") for each in names}]
     if len(topics) != len({each.removeprefix("/") for each in names}) or not all(

@@ -40,7 +40,7 @@ _find_stamp_type = re.compile(rb"Header|[Tt]ime|\[|sequence").search
 _Key = tuple[str, str, str, bytes]
 
 
-class _Beginning(NamedTuple):
+class _MessagePrefix(NamedTuple):
     """Cached information about the beginning of the messages of a type.
 
     Attributes:
@@ -52,7 +52,7 @@ class _Beginning(NamedTuple):
     has_header: bool | None
 
 
-_UNKNOWN, _NO_STAMP = _Beginning(None, None), _Beginning(None, has_header=False)
+_UNKNOWN, _NO_STAMP = _MessagePrefix(None, None), _MessagePrefix(None, has_header=False)
 
 
 class UnknownTypeError(CoframeError):
@@ -66,7 +66,7 @@ class RecordedTypes:
         self._lock = threading.RLock()
         self._classes = SchemaClasses()
         self._found_classes: dict[_Key, Any] = {}  # a class, or the reason why there is none
-        self._beginnings: dict[_Key, _Beginning] = {}
+        self._beginnings: dict[_Key, _MessagePrefix] = {}
         self._parsed_schemas: OrderedDict[_Key, ResolvedSchema] = OrderedDict()
         self._parsed_text_bytes = 0
         self._text = 0
@@ -128,7 +128,7 @@ class RecordedTypes:
         """Return whether the messages of a channel have a field ``header``, or True if that is unknown."""
         return self._beginning(channel).has_header is not False
 
-    def _beginning(self, channel: Channel) -> _Beginning:
+    def _beginning(self, channel: Channel) -> _MessagePrefix:
         if channel.encoding not in _ROS_ENCODINGS:
             return _UNKNOWN
         key = _key(channel)
@@ -136,11 +136,11 @@ class RecordedTypes:
             self._beginnings[key] = self._new_beginning(channel)
         return self._beginnings[key]
 
-    def _new_beginning(self, channel: Channel) -> _Beginning:
+    def _new_beginning(self, channel: Channel) -> _MessagePrefix:
         try:
             known = None if channel.definition else known_class(_name(channel))
             if known is not None:
-                return _Beginning(known_first_stamp(known.ROS_TYPE), hasattr(known, "header"))
+                return _MessagePrefix(known_first_stamp(known.ROS_TYPE), hasattr(known, "header"))
             if not 0 < len(channel.definition) <= _MAX_SHORT_TEXT:
                 return _find_beginning(self.schema(channel))
             if _key(channel) not in self._found_classes:
@@ -182,13 +182,13 @@ class RecordedTypes:
         self._text += len(channel.definition)
 
 
-def _find_beginning(schema: ResolvedSchema) -> _Beginning:
+def _find_beginning(schema: ResolvedSchema) -> _MessagePrefix:
     first, has_header = first_stamp(schema), schema.has_field("header")
-    return _NO_STAMP if first is None and not has_header else _Beginning(first, has_header)
+    return _NO_STAMP if first is None and not has_header else _MessagePrefix(first, has_header)
 
 
 @functools.lru_cache(64)  # The same definitions, such as that of /tf, are in most recordings.
-def _parse_beginning(definition: bytes, name: str, format_: str) -> _Beginning:
+def _parse_beginning(definition: bytes, name: str, format_: str) -> _MessagePrefix:
     return _find_beginning(ResolvedSchema(parse_schema(definition, name, format_)))
 
 

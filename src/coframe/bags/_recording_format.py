@@ -120,9 +120,9 @@ class RecordingFormat:
         Args:
             path: The file.
         """
-        from coframe.bags._message_file import serialized  # noqa: PLC0415 - it imports NumPy
+        from coframe.bags._message_file import serialize_messages  # noqa: PLC0415 - it imports NumPy
 
-        return serialized(self.messages(path))
+        return serialize_messages(self.messages(path))
 
     def open(self, path: Path, problems: Problems) -> Storage:
         """Open a file. The default reads all messages once, and keeps their bytes in a temporary file.

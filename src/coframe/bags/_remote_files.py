@@ -39,7 +39,7 @@ def files_of_source(source: Source, problems: Problems) -> tuple[list[Source], d
         metadata = read_metadata(source if is_metadata else source.inner(METADATA), problems)
     listed = [PurePosixPath(name).name for name in listed_files(metadata)]
     if names is not None:
-        listed = _existing(listed, names, problems)
+        listed = _existing_files(listed, names, problems)
     if not listed:
         raise RecordingError(
             f"{source} is not a recording: {_reason(names)}",
@@ -50,7 +50,7 @@ def files_of_source(source: Source, problems: Problems) -> tuple[list[Source], d
     return [source.inner(name) for name in listed], metadata
 
 
-def _existing(listed: list[str], names: list[str], problems: Problems) -> list[str]:
+def _existing_files(listed: list[str], names: list[str], problems: Problems) -> list[str]:
     """Return the files of a folder that exist: those in the metadata first, then others."""
     found = []
     for name in listed:

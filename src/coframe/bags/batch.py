@@ -22,7 +22,7 @@ from coframe.bags._batch_results import MANIFEST, MAX_OMISSIONS, Manifest, Omiss
 from coframe.bags._narrowing import run_query
 from coframe.bags.recording import open_with_choice
 from coframe.bags.tables import TableQuery
-from coframe.bags.tables.columns import FieldSource, column, one_or_more
+from coframe.bags.tables.columns import FieldSource, column, column_list
 from coframe.errors import CoframeError, ExtrapolationException, RecordingError, TransformException
 from coframe.trajectories.formats import POSE_COLUMNS
 
@@ -190,7 +190,7 @@ def _topics(query: TrajectoryQuery | TableQuery) -> list[str]:
     """Return the topics that a query needs."""
     if not isinstance(query, TableQuery):
         return [] if query.stamps_of is None else [query.stamps_of]
-    columns = map(column, one_or_more(query.columns))
+    columns = map(column, column_list(query.columns))
     topics = [each.parsed.topic for each in columns if isinstance(each.parsed, FieldSource)]
     return topics if query.at is None else [*topics, query.at]
 

@@ -127,7 +127,7 @@ def open_with_choice(
     return Recording(read_contents(source, choice, window, progress, on_transforms), choice, window)
 
 
-def _reopened(path: Readable, choice: TransformChoice, window: TimeWindow) -> Recording:
+def _reopen_recording(path: Readable, choice: TransformChoice, window: TimeWindow) -> Recording:
     """Open the recording of another process."""
     return open_with_choice(path, choice, window=window)
 
@@ -640,7 +640,7 @@ class Recording:
 
     def __reduce__(self) -> tuple[object, ...]:
         path = self.path
-        return _reopened, (path.absolute() if isinstance(path, Path) else path, self.choice, self.window)
+        return _reopen_recording, (path.absolute() if isinstance(path, Path) else path, self.choice, self.window)
 
     def __enter__(self) -> Self:
         return self

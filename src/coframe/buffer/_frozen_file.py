@@ -36,7 +36,16 @@ if TYPE_CHECKING:
 
     from coframe.buffer import Buffer
 
-__all__ = ["BLOCK_SIZE", "Header", "content_of", "damaged", "open_file", "read_covariances", "read_header", "save"]
+__all__ = [
+    "BLOCK_SIZE",
+    "Header",
+    "content_of",
+    "damaged_file_error",
+    "open_file",
+    "read_covariances",
+    "read_header",
+    "save",
+]
 
 _MAGIC = b"\x89CFZ\r\n\x1a\n"
 _VERSION = 1
@@ -141,7 +150,7 @@ def read_covariances(path: Path, file: BinaryIO, header: Header) -> bytes:
     file.seek(header.table + header.table_size)
     data = file.read()
     if (zlib.crc32(data) or 1) != header.covariances_crc:
-        raise damaged(path, "the checksum of its covariances is wrong")
+        raise damaged_file_error(path, "the checksum of its covariances is wrong")
     return data
 
 
@@ -180,7 +189,7 @@ def read_header(path: Path | str, file: BinaryIO, size: int) -> Header:
             hint=_WRONG_FILE_HINT,
         )
     if len(data) < _HEADER.size + _CRC.size:
-        raise damaged(path, "it is truncated")
+        raise damaged_file_error(path, "it is truncated")
     header = Header(*_HEADER.unpack_from(data))
     if header.version != _VERSION:
         raise FrozenFileError(
@@ -188,14 +197,14 @@ def read_header(path: Path | str, file: BinaryIO, size: int) -> Header:
             hint="Save the buffer again with this version of coframe, or install the version that wrote the file.",
         )
     if zlib.crc32(data[: _HEADER.size]) != _CRC.unpack_from(data, _HEADER.size)[0]:
-        raise damaged(path, "the checksum of the header is wrong")
+        raise damaged_file_error(path, "the checksum of the header is wrong")
     if header.samples % _PAGE or header.samples < _PAGE:
-        raise damaged(path, "the samples do not begin at a page boundary")
+        raise damaged_file_error(path, "the samples do not begin at a page boundary")
     if max(header.samples + header.samples_size, header.table + header.table_size) > size:
-        raise damaged(path, "it is truncated")
+        raise damaged_file_error(path, "it is truncated")
     return header
 
 
-def damaged(path: Path | str, reason: str) -> FrozenFileError:
+def damaged_file_error(path: Path | str, reason: str) -> FrozenFileError:
     """Return the error for a damaged file."""
     return FrozenFileError(f"{path} is damaged: {reason}", hint="Save the buffer again.")

@@ -358,9 +358,9 @@ class Buffer(_many_lookups.Buffer):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle the transforms of this moment; the copy in the other process is frozen."""
-        from coframe.buffer.frozen import restored  # noqa: PLC0415 - it imports this module
+        from coframe.buffer.frozen import restore_buffer  # noqa: PLC0415 - it imports this module
 
-        return restored, (_frozen_file.content_of(self.snapshot()), self.interpolation)
+        return restore_buffer, (_frozen_file.content_of(self.snapshot()), self.interpolation)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Save the buffer to a file that :func:`coframe.load` opens without reading all of it.

@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 from coframe import _core
 from coframe.buffer import Buffer
 from coframe.buffer._covariances import unpack
-from coframe.buffer._frozen_file import BLOCK_SIZE, Header, damaged, open_file, read_covariances, read_header
+from coframe.buffer._frozen_file import BLOCK_SIZE, Header, damaged_file_error, open_file, read_covariances, read_header
 from coframe.buffer.dispatcher import Dispatcher
 
 if TYPE_CHECKING:
     from coframe.transform.interpolation import Interpolation
 
-__all__ = ["FrozenBuffer", "load", "restored"]
+__all__ = ["FrozenBuffer", "load", "restore_buffer"]
 
 MAX_COPIED = 1 << 20  # bytes; copying them takes half a millisecond
 
@@ -61,17 +61,17 @@ class FrozenBuffer(Buffer):
         self._guard = _core.MemoryGuard(self._memory, _LOSS_TEXT.format(path=self._path))
         if zlib.crc32(memoryview(self._memory)[header.table : header.table + header.table_size]) != header.table_crc:
             self._guard.check()
-            raise damaged(self._path, "the checksum of the table is wrong")
+            raise damaged_file_error(self._path, "the checksum of the table is wrong")
         _core.Buffer.__init__(self, header.cache)
         positions = (header.table, header.table_size, header.samples, header.samples_size)
         if reason := _core.become_frozen(self, self._guard, *positions):
-            raise damaged(self._path, reason)
+            raise damaged_file_error(self._path, reason)
         self._dispatcher = Dispatcher()
         self._header = header
         try:
             unpack(self, covariances)
         except ValueError as error:
-            raise damaged(self._path, str(error)) from None
+            raise damaged_file_error(self._path, str(error)) from None
 
     def _copy_small_file(self, file: BinaryIO) -> mmap.mmap | None:
         """Return a copy of a small file, which other programs cannot change, or None for a large file."""
@@ -81,7 +81,7 @@ class FrozenBuffer(Buffer):
         memory = mmap.mmap(-1, size)
         file.seek(0)
         if memory.write(file.read(size)) != size:
-            raise damaged(self._path, "the file was truncated while it was read")
+            raise damaged_file_error(self._path, "the file was truncated while it was read")
         return memory
 
     @property
@@ -102,7 +102,7 @@ class FrozenBuffer(Buffer):
                 crc = zlib.crc32(memory[position : min(position + BLOCK_SIZE, end)], crc)
         if crc != self._header.samples_crc:
             self._guard.check()
-            raise damaged(self._path, "the checksum of the samples is wrong")
+            raise damaged_file_error(self._path, "the checksum of the samples is wrong")
 
     def __reduce__(self) -> tuple[Any, ...]:
         return load, (str(self._path),)
@@ -111,7 +111,7 @@ class FrozenBuffer(Buffer):
         return f"FrozenBuffer({str(self._path)!r}, frames={len(self.frame_names())})"
 
 
-def restored(content: bytes, interpolation: Interpolation) -> Buffer:
+def restore_buffer(content: bytes, interpolation: Interpolation) -> Buffer:
     """Return the buffer that was pickled in another process, or at another time; it is frozen.
 
     Args:

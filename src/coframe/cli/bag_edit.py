@@ -74,7 +74,7 @@ class _EditCommand(Command):
                 taken = _length(name, words)
                 if not words or (taken == 1 and words[0].startswith("--")):
                     ctx.fail(f"Option '--{name}' requires a value: {RULES[name].form}.")
-                rules.append((name, _joined(words[:taken])))
+                rules.append((name, _join_words(words[:taken])))
                 del words[:taken]
         ctx.meta[_RULES_KEY] = rules
         return super().parse_args(ctx, rest)
@@ -95,7 +95,7 @@ def _length(name: str, words: list[str]) -> int:
     )
 
 
-def _joined(words: list[str]) -> str:
+def _join_words(words: list[str]) -> str:
     return words[0] if len(words) == 1 else " ".join(f"'{word}'" if " " in word else word for word in words)
 
 

@@ -155,7 +155,7 @@ def compare(
                 project=project,
                 body_offset=_offset(body_offset),
             )
-            results[_unused(estimate, results)] = result
+            results[_unused_name(estimate, results)] = result
         for path in files:
             _write(path, results, ref)
         if as_json:
@@ -176,7 +176,7 @@ def _offset(numbers: tuple[float, ...] | None) -> Transform | None:
     return Transform.from_rpy(numbers[:3], np.radians(numbers[3:]))
 
 
-def _unused(name: str, names: Container[str]) -> str:
+def _unused_name(name: str, names: Container[str]) -> str:
     """Return a name with a number behind it if it is already used."""
     return name if name not in names else next(n for i in range(2, 1000) if (n := f"{name} ({i})") not in names)
 

@@ -126,7 +126,7 @@ def _path(ctx: click.Context) -> tuple[str, ...]:
 def _wire_option() -> click.Option:
     from coframe.wire import selection  # noqa: PLC0415 - the list of commands does not need DDS
 
-    def checked(name: str) -> str:
+    def check_name(name: str) -> str:
         if name not in selection.wires():
             raise click.BadParameter(f"{name!r} is not {selection.alternatives()}.")
         return name
@@ -138,7 +138,7 @@ def _wire_option() -> click.Option:
     return click.Option(
         ["--wire"],
         metavar=f"[{'|'.join(selection.wires())}]",
-        type=checked,
+        type=check_name,
         callback=choose,
         expose_value=False,
         is_eager=True,

@@ -126,7 +126,7 @@ def _print_choices(plan: RepairPlan) -> None:
         print(one_line(line))
 
 
-def _quoted(rule: str) -> str:
+def _quote_rule(rule: str) -> str:
     """Return a rule as it is written in a shell."""
     name, _, value = rule.partition(" ")
     return rule if name in {"set-static", "replace-mount"} or not value else f"{name} {shlex.quote(value)}"
@@ -138,7 +138,7 @@ def _choices(plan: RepairPlan) -> list[str]:
     for finding, options in plan.choices:
         lines.append(headline(finding))
         if options:
-            lines += [f"  choose: --{_quoted(option)}" for option in options]
+            lines += [f"  choose: --{_quote_rule(option)}" for option in options]
         else:
             lines.append(f"  cannot be repaired in a recording: {finding.fix}")
     return lines

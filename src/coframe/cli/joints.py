@@ -185,10 +185,10 @@ def _running_node(
     args: list[str], robot: Robot | None, domain: int | None, overrides: list[Parameter[Any]]
 ) -> Iterator[RunningNode]:
     from coframe.nodes.joint_state_publisher import JointStatePublisher  # noqa: PLC0415 - not needed without a file
-    from coframe.nodes.program import initialized  # noqa: PLC0415
+    from coframe.nodes.program import initialize_rclpy  # noqa: PLC0415
     from rclpy.executors import SingleThreadedExecutor  # noqa: PLC0415
 
-    with initialized(args, domain):
+    with initialize_rclpy(args, domain):
         try:
             node = JointStatePublisher(robot, parameter_overrides=overrides)
         except ValueError as error:

@@ -178,7 +178,7 @@ def _answer_live(config: ListenerConfig, target: str, source: str, at: str | Non
         seen = observer.observe()
         clock = int(seen.clock.stamp[-1]) if seen.clock is not None else None
         found = ros.buffer.why(target, source, _lookup_time(at, clock, window), now=clock)
-        return _answer(found, [seen], [*_awaited(found, ros), *_other_topics(found, ros)])
+        return _answer(found, [seen], [*_await_transforms(found, ros), *_other_topics(found, ros)])
 
 
 def _answer(found: Explanation, seen: Sequence[Observation], notes: Iterable[str]) -> _Answer:
@@ -213,7 +213,7 @@ def _watch(config: ListenerConfig, target: str, source: str, at: str | None, win
         while True:
             clock = stamp_ns(ticks[0].clock) if ticks else None
             found = ros.buffer.why(target, source, _lookup_time(at, clock, window), now=clock)
-            answer = _Answer(found, [], list(_awaited(found, ros)))
+            answer = _Answer(found, [], list(_await_transforms(found, ros)))
             if as_json:
                 print(json.dumps(_data(answer)), flush=True)
             else:
@@ -260,7 +260,7 @@ def _other_namespaces(found: Explanation, recording: Recording) -> Iterator[str]
                 yield f"frame {frame!r} is published on {name}/tf: coframe why ... {option}"
 
 
-def _awaited(found: Explanation, ros: Connection) -> Iterator[str]:
+def _await_transforms(found: Explanation, ros: Connection) -> Iterator[str]:
     if not found.possible and (nodes := ros.awaited_statics()):
         yield awaited_statics_text(nodes)
 

@@ -102,7 +102,7 @@ def _pose_problems(required: TransformRequirement, edge: Edge) -> Iterator[str]:
 
 def _topic(required: TopicRequirement, measurement: Measurement) -> Result:
     topic = measurement.topics.get(required.name)
-    unchecked = () if topic is None else tuple(_unchecked(required, topic, measurement))
+    unchecked = () if topic is None else tuple(_unchecked_requirements(required, topic, measurement))
     return Result("topic", required.name, tuple(_topic_problems(required, measurement)), unchecked)
 
 
@@ -135,7 +135,9 @@ def _frames_of(topic: str, measurement: Measurement) -> list[str] | None:
     return None if frame is None else [frame] if frame else []
 
 
-def _unchecked(required: TopicRequirement, topic: MeasuredTopic, measurement: Measurement) -> Iterator[str]:
+def _unchecked_requirements(
+    required: TopicRequirement, topic: MeasuredTopic, measurement: Measurement
+) -> Iterator[str]:
     """Yield what is required of a topic but unknown."""
     unknown_qos = [
         name

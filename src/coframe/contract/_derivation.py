@@ -34,10 +34,10 @@ _RATE_MARGIN = 0.8  # of the measured rate
 _GAP_MARGIN = 1.5  # times the longest gap, and at least three times the median
 _MIN_MESSAGES = 10  # fewer have no rate
 _MAX_IRREGULARITY = 10  # the longest gap over the median gap; what is less regular has no required rate
-_WITHIN = (20 * MILLISECOND, 50 * MILLISECOND, 100 * MILLISECOND, 200 * MILLISECOND)
+_WAIT_TIMES = (20 * MILLISECOND, 50 * MILLISECOND, 100 * MILLISECOND, 200 * MILLISECOND)
 _SHARE, _MIN_SHARE = 0.99, 0.5
 # Topics of the tools themselves, which say nothing about the robot, and the topics of transforms.
-_UNRELATED = ("/rosout", "/parameter_events", "/events/write_split", "/bond", "/diagnostics_agg")
+_UNRELATED_TOPICS = ("/rosout", "/parameter_events", "/events/write_split", "/bond", "/diagnostics_agg")
 
 
 def derive_contract(measurement: Measurement, *, fail_on: Severity | None = Severity.WARNING) -> Contract:
@@ -60,12 +60,14 @@ def derive_contract(measurement: Measurement, *, fail_on: Severity | None = Seve
         topics=tuple(
             _topic(topic, measurement)
             for name, topic in sorted(measurement.topics.items())
-            if topic.pace.messages and name not in _UNRELATED and not name.rstrip("c").endswith(("/tf", "/tf_stati"))
+            if topic.pace.messages
+            and name not in _UNRELATED_TOPICS
+            and not name.rstrip("c").endswith(("/tf", "/tf_stati"))
         ),
         availability=tuple(each for name, one in observations.items() for each in _availability(one, name)),
         clock=_clock(list(observations.values())),
         fail_on=fail_on,
-        ignore=tuple(_accepted(observations, fail_on)),
+        ignore=tuple(_accepted_codes(observations, fail_on)),
     )
 
 
@@ -117,8 +119,10 @@ def _availability(observation: Observation, namespace: str) -> Iterator[Availabi
         if sensor.frame == root or not len(sensor.stamp):
             continue
         waits = observation.waits_between(root, sensor.frame, sensor.stamp, sensor.arrived)
-        shares = [float(np.mean(waits <= within)) for within in _WITHIN]
-        within, share = next(pair for pair in zip(_WITHIN, shares, strict=True) if pair[1] >= min(_SHARE, max(shares)))
+        shares = [float(np.mean(waits <= within)) for within in _WAIT_TIMES]
+        within, share = next(
+            pair for pair in zip(_WAIT_TIMES, shares, strict=True) if pair[1] >= min(_SHARE, max(shares))
+        )
         if share >= _MIN_SHARE:
             share = _SHARE if share >= _SHARE else math.floor(share * 98) / 100
             yield AvailabilityRequirement(root, sensor.frame, sensor.topic, namespace, within, share)
@@ -129,7 +133,7 @@ def _clock(observations: list[Observation]) -> Clock:
     return "wall" if clocks == {"wall"} else "simulated" if clocks == {"simulated"} else "any"
 
 
-def _accepted(observations: dict[str, Observation], fail_on: Severity | None) -> Iterator[IgnoredCode]:
+def _accepted_codes(observations: dict[str, Observation], fail_on: Severity | None) -> Iterator[IgnoredCode]:
     seen: set[str] = set()
     for observation in observations.values():
         for finding in diagnose(observation).every_finding():

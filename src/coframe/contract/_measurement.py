@@ -87,7 +87,7 @@ def measure_recording(
     """
     topics: dict[str, MeasuredTopic] = {}
     observations = observe_chosen(
-        path, choice, progress=progress, examine=lambda recording: topics.update(_recorded(recording))
+        path, choice, progress=progress, examine=lambda recording: topics.update(_recorded_topics(recording))
     )
     return Measurement(observations, topics)
 
@@ -134,11 +134,11 @@ def pace_of(arrived: NDArray[np.int64], end: int) -> Pace:
     return Pace(len(arrived), len(steps) * SECOND / int(arrived[-1] - arrived[0]), max_gap, int(np.median(steps)))
 
 
-def _recorded(recording: Recording) -> dict[str, MeasuredTopic]:
-    offered: dict[str, list[tuple[bool, bool]]] = {}
+def _recorded_topics(recording: Recording) -> dict[str, MeasuredTopic]:
+    offered_qos: dict[str, list[tuple[bool, bool]]] = {}
     for channel in recording.channels():
         for each in from_yaml(channel.offered_qos):
-            offered.setdefault(channel.topic, []).append((each.reliable, each.transient_local))
+            offered_qos.setdefault(channel.topic, []).append((each.reliable, each.transient_local))
     end = recording.received_end
     return {
         name: MeasuredTopic(
@@ -146,7 +146,7 @@ def _recorded(recording: Recording) -> dict[str, MeasuredTopic]:
             topic.type,
             pace_of(np.sort(recording.received(name)), end),
             recording.frame(recording.first_frame(name).lstrip("/")),
-            *_common(offered.get(name, [])),
+            *_common(offered_qos.get(name, [])),
         )
         for name, topic in recording.topics.items()
     }

@@ -69,10 +69,10 @@ def parse_contract(text: str | bytes, name: str = "the contract") -> Contract:
         position = error_position(error)
         place = f", line {position[0] + 1}" if position else ""
         raise ContractError(f"{name}{place}: {error}") from None
-    return _contract(_Mapping(data, name, ""))
+    return _contract(_MappingReader(data, name, ""))
 
 
-def _contract(top: _Mapping) -> Contract:
+def _contract(top: _MappingReader) -> Contract:
     version = top.take("version", int, "an integer", VERSION)
     if version != VERSION:
         raise top.error("version", f"is {version}; this version of coframe reads version {VERSION}")
@@ -85,14 +85,14 @@ def _contract(top: _Mapping) -> Contract:
         topics=tuple(_topic(each) for each in top.mappings("topics", "name")),
         availability=tuple(_availability(each) for each in top.mappings("availability", "target", "source")),
         fail_on=_SEVERITIES[findings.choice("fail_on", tuple(_SEVERITIES), "warning")],
-        ignore=tuple(_ignored(each) for each in findings.mappings("ignore", "code")),
+        ignore=tuple(_read_ignored_code(each) for each in findings.mappings("ignore", "code")),
     )
     findings.require_nothing_else()
     top.require_nothing_else()
     return contract
 
 
-def _transform(entry: _Mapping, tolerance: tuple[float, float]) -> TransformRequirement:
+def _transform(entry: _MappingReader, tolerance: tuple[float, float]) -> TransformRequirement:
     requirement = TransformRequirement(
         parent=entry.text("parent"),
         child=entry.text("child"),
@@ -110,7 +110,7 @@ def _transform(entry: _Mapping, tolerance: tuple[float, float]) -> TransformRequ
     return requirement
 
 
-def _topic(entry: _Mapping) -> TopicRequirement:
+def _topic(entry: _MappingReader) -> TopicRequirement:
     requirement = TopicRequirement(
         name=entry.text("name"),
         type=entry.text("type", ""),
@@ -124,7 +124,7 @@ def _topic(entry: _Mapping) -> TopicRequirement:
     return requirement
 
 
-def _availability(entry: _Mapping) -> AvailabilityRequirement:
+def _availability(entry: _MappingReader) -> AvailabilityRequirement:
     requirement = AvailabilityRequirement(
         target=entry.text("target"),
         source=entry.text("source"),
@@ -137,7 +137,7 @@ def _availability(entry: _Mapping) -> AvailabilityRequirement:
     return requirement
 
 
-def _ignored(entry: _Mapping) -> IgnoredCode:
+def _read_ignored_code(entry: _MappingReader) -> IgnoredCode:
     ignored = IgnoredCode(entry.text("code").upper(), entry.text("reason"))
     entry.require_nothing_else()
     if ignored.code not in codes():
@@ -147,7 +147,7 @@ def _ignored(entry: _Mapping) -> IgnoredCode:
     return ignored
 
 
-class _Mapping:
+class _MappingReader:
     """A mapping of the document, whose keys are taken one after the other."""
 
     def __init__(self, data: Any, name: str, place: str) -> None:
@@ -225,16 +225,16 @@ class _Mapping:
         except ValueError as error:
             raise self.error(key, f"cannot be used: {error}") from None
 
-    def mapping(self, key: str) -> _Mapping:
+    def mapping(self, key: str) -> _MappingReader:
         """Return a mapping; empty if it is missing."""
-        return _Mapping(self.take(key, dict, "a mapping", {}), self._name, f"{self._place}.{key}".lstrip("."))
+        return _MappingReader(self.take(key, dict, "a mapping", {}), self._name, f"{self._place}.{key}".lstrip("."))
 
-    def mappings(self, key: str, *labels: str) -> Iterator[_Mapping]:
+    def mappings(self, key: str, *labels: str) -> Iterator[_MappingReader]:
         """Yield the mappings of a list; errors name them by their number and by the values of some keys."""
         for number, data in enumerate(self.take(key, list, "a list", [])):
             known = [str(data.get(label))[:_MAX_SHOWN] for label in labels] if isinstance(data, dict) else []
             label = f" ({' -> '.join(known)})" if known else ""
-            yield _Mapping(data, self._name, f"{self._place}.{key}[{number}]".lstrip(".") + label)
+            yield _MappingReader(data, self._name, f"{self._place}.{key}[{number}]".lstrip(".") + label)
 
 
 def _is_finite(value: Any) -> bool:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe._output.escaping import one_line
-from coframe._sources.urls import is_url, without_credentials
+from coframe._sources.urls import is_url, remove_credentials
 from coframe.bags.namespaces import ALL_TRANSFORMS
 from coframe.contract._checks import check_contract
 from coframe.contract._measurement import measure_recording
@@ -89,7 +89,7 @@ def check_recording(
         choice: The transforms to read, and the prefix of their frames.
         progress: Called repeatedly with the number of bytes read and the total number.
     """
-    name = without_credentials(path) if isinstance(path, str) and is_url(path) else str(path)
+    name = remove_credentials(path) if isinstance(path, str) and is_url(path) else str(path)
     try:
         measurement = measure_recording(path, choice, progress=progress)
     except RecordingError as error:

@@ -57,7 +57,7 @@ def main() -> None:
     adopt_orphans()
     signal.signal(signal.SIGINT, lambda _number, _frame: None)  # A program can send this signal to its parent.
     confinement = Confinement(folder, scratch, job["private"], has_namespaces=is_isolated(), number=job["number"])
-    with _result_output() as output, _recording(job["record"]), confinement:
+    with _result_output() as output, _record_topics(job["record"]), confinement:
 
         def write(kind: str, value: Any) -> None:
             output.write(json.dumps({kind: value}) + "\n")
@@ -107,7 +107,7 @@ def _result_output() -> TextIO:
 
 
 @contextlib.contextmanager
-def _recording(folder: str | None) -> Iterator[None]:
+def _record_topics(folder: str | None) -> Iterator[None]:
     """Record all topics during the block, if there is a folder for it."""
     if folder is None:
         yield

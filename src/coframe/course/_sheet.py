@@ -106,7 +106,7 @@ class Sheet:
         share = min(1.0, max(0.0, float(good)))
         lost = share < 1.0
         earned = round(points * share, 2)
-        details = (_shorten(observed), cause, read) if lost else ("", "", "")
+        details = (_truncate(observed), cause, read) if lost else ("", "", "")
         self.facts.append(Fact(name, points, earned, expected, *details))
         return not lost
 
@@ -156,7 +156,7 @@ class Sheet:
         }
 
 
-def _shorten(text: str) -> str:
+def _truncate(text: str) -> str:
     """Truncate untrusted text from a submission, such as a frame name."""
     return text if len(text) <= _MAX_OBSERVATION_LENGTH else f"{text[:_MAX_OBSERVATION_LENGTH]} ..."
 

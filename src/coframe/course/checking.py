@@ -94,7 +94,7 @@ def check_folder(
             results = _Results(output, max_seconds)
             try:
                 results.follow(progress, cancelled or threading.Event())
-                ending = "the check was stopped" if results.is_alive() else _ending(process)
+                ending = "the check was stopped" if results.is_alive() else _end_text(process)
             finally:
                 process.kill()
                 process.wait()
@@ -111,7 +111,7 @@ def check_folder(
     return _report(folder, results, missing, reason)
 
 
-def _ending(process: subprocess.Popen[bytes]) -> str:
+def _end_text(process: subprocess.Popen[bytes]) -> str:
     """Return how the process of a grade ended by itself, as a phrase."""
     try:
         code = process.wait(_EXIT_TIMEOUT)

@@ -13,7 +13,7 @@ import numpy as np
 
 from coframe import quaternion
 from coframe.analysis.missing_edges import is_base_frame
-from coframe.doctor.pose_mistakes import OPTICAL, Correction, corrections, explain
+from coframe.doctor.pose_mistakes import OPTICAL_ROTATION, Correction, corrections, explain
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -88,20 +88,20 @@ def _is_body_of(parent: str, child: str) -> bool:
 def _check_rep103_rotation(edge: Edge) -> WrongAxes | None:
     """Return what is wrong with the optical frame of a camera's body, whose rotation REP-103 defines."""
     turn = edge.rotations[-1]
-    if _angle(turn, OPTICAL) < 2.0 * _MAX_UNROTATED_ANGLE:
+    if _angle(turn, OPTICAL_ROTATION) < 2.0 * _MAX_UNROTATED_ANGLE:
         return None
     if _angle(turn, _IDENTITY) < _MAX_UNROTATED_ANGLE:
         return _unrotated_frame(edge)
     zero = np.zeros(3)
-    published, expected = (np.concatenate([zero, each])[None] for each in (turn, OPTICAL))
+    published, expected = (np.concatenate([zero, each])[None] for each in (turn, OPTICAL_ROTATION))
     found = explain(published, expected, radians=_MAX_ANGLE_ERROR)
     matrix = quaternion.to_matrix(turn)
     is_aligned = bool((np.abs(np.abs(matrix) - np.round(np.abs(matrix))) < _MAX_ALIGNMENT_ERROR).all())
     if found is None and not is_aligned:
         return None
     reading = f"; the rotation agrees with REP-103 if {found.reading}" if found else ""
-    text = f"{_described(edge, turn)}{reading}"
-    return WrongAxes(edge, text, found.fix if found else "", np.concatenate([edge.values[-1, :3], OPTICAL]))
+    text = f"{_describe_axes(edge, turn)}{reading}"
+    return WrongAxes(edge, text, found.fix if found else "", np.concatenate([edge.values[-1, :3], OPTICAL_ROTATION]))
 
 
 def _unrotated_frame(edge: Edge) -> WrongAxes:
@@ -109,7 +109,7 @@ def _unrotated_frame(edge: Edge) -> WrongAxes:
         f"{edge.child!r} is named optical, but is not rotated relative to {edge.parent!r}: its z axis points up "
         "instead of forward"
     )
-    turn = quaternion.multiply(edge.rotations[-1], OPTICAL)
+    turn = quaternion.multiply(edge.rotations[-1], OPTICAL_ROTATION)
     return WrongAxes(edge, text, "", np.concatenate([edge.values[-1, :3], turn]))
 
 
@@ -124,7 +124,7 @@ def _find_corrected_edge(chain: Sequence[Edge], turn: NDArray[np.float64]) -> Wr
         if found:
             first, *_ = found.values()
             readings = " or ".join(f"if {reading}" for reading in list(found)[:_MAX_CANDIDATES])
-            text = f"{_described(chain[0], turn)}; the camera is upright and looks forward {readings}"
+            text = f"{_describe_axes(chain[0], turn)}; the camera is upright and looks forward {readings}"
             return WrongAxes(edge, text, first.fix, first.pose)
     return None
 
@@ -147,7 +147,7 @@ def _angle(first: NDArray[np.float64], second: NDArray[np.float64]) -> float:
     return float(2.0 * np.arccos(min(1.0, abs(float(first @ second)))))
 
 
-def _described(edge: Edge, turn: NDArray[np.float64]) -> str:
+def _describe_axes(edge: Edge, turn: NDArray[np.float64]) -> str:
     """Return which way the axes of an optical frame point instead of the right one."""
     right, _, forward = (_direction(axis) for axis in _axes(turn))
     wrong = [

@@ -19,7 +19,7 @@ __all__ = ["Flicker", "alternation_cause", "flicker", "jump_cause"]
 
 _MIN_JUMPS = 6  # jumps away and back
 _DISTANCE_RESOLUTION = 1e-3
-_RADIANS = 1e-2
+_ANGLE_RESOLUTION = 1e-2
 # A jump must be larger than this multiple of the usual step.
 _MIN_STEP_RATIO = 6.0
 _TOLERANCE = 2.0  # usual steps that two poses at nearly the same time may differ
@@ -51,12 +51,15 @@ def flicker(edge: Edge) -> Flicker | None:
     if edge.count < _MIN_JUMPS + 2:
         return None
     # The usual step is computed only if there are enough large steps, because it takes most of the time.
-    if np.count_nonzero((edge.distances > _DISTANCE_RESOLUTION) | (edge.rotation_steps > _RADIANS)) < _MIN_JUMPS:
+    if (
+        np.count_nonzero((edge.distances > _DISTANCE_RESOLUTION) | (edge.rotation_steps > _ANGLE_RESOLUTION))
+        < _MIN_JUMPS
+    ):
         return None
     typical_distance, typical_angle = _typical_step(edge)
     jumps = np.flatnonzero(
         (edge.distances > _MIN_STEP_RATIO * typical_distance + _DISTANCE_RESOLUTION)
-        | (edge.rotation_steps > _MIN_STEP_RATIO * typical_angle + _RADIANS)
+        | (edge.rotation_steps > _MIN_STEP_RATIO * typical_angle + _ANGLE_RESOLUTION)
     )
     if len(jumps) < _MIN_JUMPS:
         return None
@@ -66,7 +69,7 @@ def flicker(edge: Edge) -> Flicker | None:
     left = np.linalg.norm(edge.values[away, :3] - edge.values[back + 1, :3], axis=1)
     turned = angles_between(edge.rotations[away], edge.rotations[back + 1])
     distance, angle = edge.distances[away], edge.rotation_steps[away]
-    returned = (distance > 2.0 * left + _DISTANCE_RESOLUTION) | (angle > 2.0 * turned + _RADIANS)
+    returned = (distance > 2.0 * left + _DISTANCE_RESOLUTION) | (angle > 2.0 * turned + _ANGLE_RESOLUTION)
     # Most jumps must be reversed by the next one: a robot that is moved to a new pose a few times does not flicker.
     if np.count_nonzero(returned) < max(_MIN_JUMPS, len(jumps) // 2):
         return None
@@ -97,7 +100,10 @@ def jump_cause(edge: Edge, rows: NDArray[np.intp]) -> Explanation | None:
 def _tolerances(edge: Edge) -> dict[str, float]:
     """Return how far an edge usually moves between two rows, as the limits of a comparison."""
     distance, angle = _typical_step(edge)
-    return {"meters": _TOLERANCE * distance + _DISTANCE_RESOLUTION, "radians": _TOLERANCE * angle + _RADIANS / 10}
+    return {
+        "meters": _TOLERANCE * distance + _DISTANCE_RESOLUTION,
+        "radians": _TOLERANCE * angle + _ANGLE_RESOLUTION / 10,
+    }
 
 
 def _typical_step(edge: Edge) -> tuple[float, float]:

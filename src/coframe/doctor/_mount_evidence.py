@@ -198,14 +198,16 @@ def _base_poses(moving: list[Edge], times: NDArray[np.int64]) -> tuple[Array, Ar
         if edge.static or len(order) < 2:
             between = np.repeat(edge.last_pose, len(times), axis=0)
         else:
-            between, inside = _interpolated(edge.stamp[order], edge.poses(order), times)
+            between, inside = _interpolate_poses(edge.stamp[order], edge.poses(order), times)
             known &= inside
         place = quaternion.rotate(between[:, 3:], place) + between[:, :3]
         turn = quaternion.multiply(between[:, 3:], turn)
     return (turn, place, known) if np.count_nonzero(known) >= _MIN_POINTS else None
 
 
-def _interpolated(stamps: NDArray[np.int64], poses: Array, times: NDArray[np.int64]) -> tuple[Array, NDArray[np.bool_]]:
+def _interpolate_poses(
+    stamps: NDArray[np.int64], poses: Array, times: NDArray[np.int64]
+) -> tuple[Array, NDArray[np.bool_]]:
     """Return poses between samples, and whether each time is between two of them."""
     after = np.clip(np.searchsorted(stamps, times), 1, len(stamps) - 1)
     before = after - 1

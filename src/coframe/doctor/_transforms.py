@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-__all__ = ["COLUMNS", "NORM_TOLERANCE", "NO_TRANSFORMS", "Transforms", "bare", "number_names"]
+__all__ = ["COLUMNS", "NORM_TOLERANCE", "NO_TRANSFORMS", "Transforms", "number_names", "without_slash"]
 
 # tf2 rejects a quaternion whose squared length differs from 1 by this much or more.
 NORM_TOLERANCE = 0.01
@@ -53,7 +53,7 @@ class Transforms:
     sent: tuple[str, ...] = ()
 
     @staticmethod
-    def joined(batches: Sequence[Transforms], names: tuple[str, ...], sent: tuple[str, ...] = ()) -> Transforms:
+    def join_batches(batches: Sequence[Transforms], names: tuple[str, ...], sent: tuple[str, ...] = ()) -> Transforms:
         """Return the rows of all batches in the order of arrival, with frame numbers that refer to `names`."""
         columns: dict[str, Any] = {
             name: np.concatenate([getattr(batch, name) for batch in (NO_TRANSFORMS, *batches)]) for name in COLUMNS
@@ -127,14 +127,14 @@ def number_names(known: dict[str, int], names: Iterable[str]) -> NDArray[np.int6
     return np.array([known.setdefault(name, len(known)) for name in names], dtype=np.int64)
 
 
-def bare(names: tuple[str, str]) -> tuple[str, str]:
+def without_slash(names: tuple[str, str]) -> tuple[str, str]:
     """Return parent and child as tf2 stores them, without a leading slash."""
     parent, child = names
     return parent.lstrip("/"), child.lstrip("/")
 
 
 def _is_edge(names: tuple[str, str]) -> bool:
-    parent, child = bare(names)
+    parent, child = without_slash(names)
     return bool(parent and child) and parent != child
 
 

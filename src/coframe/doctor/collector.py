@@ -103,7 +103,7 @@ class Collector:
     def transforms(self) -> Transforms:
         """Return all rows in the order of arrival."""
         sent = tuple(self._names)
-        return Transforms.joined(
+        return Transforms.join_batches(
             [self._static.table(), self._dynamic_rows.table()], tuple(map(self._renamed, sent)), sent
         )
 

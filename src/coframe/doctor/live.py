@@ -58,7 +58,7 @@ _DESCRIPTION = "robot_description"
 MAX_TRANSFORMS = 1_000_000
 MAX_MESSAGES = 20_000  # for each topic
 MAX_DECODED_BYTES = 64 << 20  # of the messages on one topic that are decoded: descriptions, joint states, log messages
-_RETURN_PERIOD = 10.0  # seconds
+_MEMORY_RETURN_PERIOD = 10.0  # seconds
 MAX_TOPICS = 4000  # subscriptions; a typical graph has hundreds of topics
 
 
@@ -256,7 +256,7 @@ class LiveObserver:
             sensors=tuple(
                 s for topic in self._topics.values() for s in _sensors(topic, start, self._rename, self._node_of)
             ),
-            descriptions=tuple(str(message.data) for _, message in self._decoded("std_msgs/msg/String")),
+            descriptions=tuple(str(message.data) for _, message in self._decoded_messages("std_msgs/msg/String")),
             joint_states=tuple(
                 _joints(topic, start) for topic in self._topics.values() if topic.type == "sensor_msgs/msg/JointState"
             ),
@@ -264,7 +264,7 @@ class LiveObserver:
             travel=self._delays_by_node(),
             log=tuple(
                 ObservedLogLine(_node_of_logger(message.name), message.msg, arrived)
-                for arrived, message in self._decoded("rcl_interfaces/msg/Log")
+                for arrived, message in self._decoded_messages("rcl_interfaces/msg/Log")
                 if arrived >= start
             ),
             cache=self.cache,
@@ -309,7 +309,7 @@ class LiveObserver:
     def _return_memory(self) -> None:
         """Periodically return the memory of discarded messages and reports to the system."""
         if time.monotonic() >= self._next_memory_return:
-            self._next_memory_return = time.monotonic() + _RETURN_PERIOD
+            self._next_memory_return = time.monotonic() + _MEMORY_RETURN_PERIOD
             return_freed_blocks()
 
     def _add_node_names(self, received: Transforms) -> Transforms:
@@ -388,13 +388,13 @@ class LiveObserver:
                 stamp, frame = header
                 topic.add_header(_ReceivedHeader(frame.lstrip("/"), stamp, arrived, writer))
 
-    def _decoded(self, ros_type: str) -> list[tuple[int, Any]]:
+    def _decoded_messages(self, ros_type: str) -> list[tuple[int, Any]]:
         return [pair for topic in self._topics.values() if topic.type == ros_type for pair in topic.decoded]
 
     def _clock(self, start: int) -> ObservedClock | None:
         received = [
             (arrived, message.clock.sec * SECOND + message.clock.nanosec)
-            for arrived, message in self._decoded("rosgraph_msgs/msg/Clock")
+            for arrived, message in self._decoded_messages("rosgraph_msgs/msg/Clock")
             if arrived >= start
         ]
         if not received:

@@ -18,7 +18,7 @@ from coframe.analysis.liveness import is_stale
 from coframe.analysis.missing_edges import is_base_frame
 from coframe.analysis.tree import FrameTrees
 from coframe.doctor._edge import Edge
-from coframe.doctor._transforms import Transforms, bare
+from coframe.doctor._transforms import Transforms, without_slash
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
@@ -268,7 +268,7 @@ class Observation:
             return ()
         # Names with and without a leading slash are the same frame.
         numbers: dict[tuple[str, str], int] = {}
-        names = [bare(rows_of.pair(number)) for number in range(len(rows_of.pairs))]
+        names = [without_slash(rows_of.pair(number)) for number in range(len(rows_of.pairs))]
         same = np.array([numbers.setdefault(pair, len(numbers)) for pair in names], dtype=np.int64)
         groups = same[rows_of.edge[rows]] * 2 + rows_of.static[rows]
         order = np.argsort(groups.astype(np.min_scalar_type(2 * len(numbers))), kind="stable")

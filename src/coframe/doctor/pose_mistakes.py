@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     Trial = Callable[[Array], Sequence[Array]]
 
 __all__ = [
-    "OPTICAL",
+    "OPTICAL_ROTATION",
     "Correction",
     "Explanation",
     "all_rpy_angles",
@@ -41,7 +41,7 @@ __all__ = [
     "rotation_text",
 ]
 
-OPTICAL = quaternion.from_rpy(np.array([-pi / 2, 0.0, -pi / 2]))
+OPTICAL_ROTATION = quaternion.from_rpy(np.array([-pi / 2, 0.0, -pi / 2]))
 """The rotation of an optical frame relative to the body of a camera by REP-103: z forward, x right, y down."""
 
 _MAX_DISTANCE = 1e-3
@@ -145,7 +145,7 @@ def explain(
     if whole is not None:
         return whole
     moved = _first(_translations(right_turn), place, right_place, meters, _distance) if far > meters else None
-    rotated = _first(_ROTATIONS, turn, right_turn, radians, _rotation) if turned > radians else None
+    rotated = _first(_AXIS_ROTATIONS, turn, right_turn, radians, _rotation) if turned > radians else None
     parts = [part for part in (rotated, moved) if part is not None]
     if not parts:
         return None
@@ -179,7 +179,7 @@ def corrections(pose: Array) -> Iterator[Correction]:
     """
     place, turn = pose[:3], pose[None, 3:]
     inverse = inverse_poses(pose[None])[0]
-    for mistake in _ROTATIONS:
+    for mistake in _AXIS_ROTATIONS:
         for turned in mistake.undo_mistake(turn):
             yield Correction(mistake.reading, mistake.fix, np.concatenate([place, turned[0]]))
     yield Correction(_INVERTED, _INVERTED_FIX, inverse)
@@ -394,11 +394,11 @@ def _no_candidates(_: Array) -> list[Array]:
     return []
 
 
-_HALF = (
+_HALF_ANGLE_HINT = (
     "Use half the angle in a quaternion: z = math.sin(yaw / 2), w = math.cos(yaw / 2); or Transform.from_rpy, with the "
     "whole angles."
 )
-_ROTATIONS = (
+_AXIS_ROTATIONS = (
     Mistake(
         "its quaternion is read as w, x, y, z",
         "A quaternion of ROS is x, y, z, w: set rotation.x, .y, .z from the vector and rotation.w from the scalar.",
@@ -428,16 +428,23 @@ _ROTATIONS = (
     Mistake("its rotation is inverted", "Publish the inverse rotation: the columns of the matrix are the axes of the "
             "child frame in the parent frame; use R.T for R, and -x, -y, -z, w for x, y, z, w.",
             lambda turn: [quaternion.inverse(turn)], lambda turn: [quaternion.inverse(turn)]),
-    Mistake(_BODY_READING, _BODY_FIX, partial(_times, quaternion.inverse(OPTICAL)), partial(_times, OPTICAL)),
+    Mistake(
+        _BODY_READING,
+        _BODY_FIX,
+        partial(_times, quaternion.inverse(OPTICAL_ROTATION)),
+        partial(_times, OPTICAL_ROTATION),
+    ),
     Mistake(
         "its rotation is that of an optical frame, and the frame is the body of the camera",
         "Remove the rotation of optical frames (REP-103), or publish it for the optical frame.",
-        partial(_times, OPTICAL),
-        partial(_times, quaternion.inverse(OPTICAL)),
+        partial(_times, OPTICAL_ROTATION),
+        partial(_times, quaternion.inverse(OPTICAL_ROTATION)),
     ),
     _axis_rotation_mistake(0, 180),
-    Mistake("its angle is halved (the angle was used for the half angle)", _HALF, _double_angle, _halve_angle),
-    Mistake("its angle is doubled (the angle was halved twice)", _HALF, _halve_angle, _double_angle),
+    Mistake(
+        "its angle is halved (the angle was used for the half angle)", _HALF_ANGLE_HINT, _double_angle, _halve_angle
+    ),
+    Mistake("its angle is doubled (the angle was halved twice)", _HALF_ANGLE_HINT, _halve_angle, _double_angle),
     *(_angle_order_mistake((a, b, c)) for a, b, c in ((2, 1, 0), *permutations(range(3))) if (a, b, c) != (0, 1, 2)),
     Mistake(
         "its angles are applied about fixed axes (extrinsic x, y, z), not about moving ones",

@@ -50,14 +50,14 @@ _MAX_DECODED = 2000  # limit of messages per topic
 _MAX_DESCRIPTIONS = 10
 _NORM_TOLERANCE = 5e-3  # how far a quaternion is off length 1 in tf2
 _ODOMETRY, _IMU = "nav_msgs/msg/Odometry", "sensor_msgs/msg/Imu"
-_PARTS, _PART = 20, 25  # parts of a topic that are looked at, and successive messages in each
+_PART_COUNT, _MESSAGES_PER_PART = 20, 25  # parts of a topic that are looked at, and successive messages in each
 _MIN_RATE = 1.0  # Hz; what is published more slowly, such as goals, need not be on one track
-_POSES: dict[str, Callable[[Any], Any]] = {
+_POSE_FIELDS: dict[str, Callable[[Any], Any]] = {
     "nav_msgs/msg/Odometry": lambda message: message.pose.pose.position,
     "geometry_msgs/msg/PoseStamped": lambda message: message.pose.position,
     "geometry_msgs/msg/PoseWithCovarianceStamped": lambda message: message.pose.pose.position,
 }
-_LOGS = {"rcl_interfaces/msg/Log", "rosgraph_msgs/msg/Log"}
+_LOG_TYPES = {"rcl_interfaces/msg/Log", "rosgraph_msgs/msg/Log"}
 
 
 def observe_recording(
@@ -179,14 +179,14 @@ class _Facts:
         self.sensors = [sensor for name in self.topics for sensor in self._sensors(name)]
         self.positions = [
             ObservedPositions(name, tuple(self._parts(name)))
-            for name in self._topics_of_type(set(_POSES))
+            for name in self._topics_of_type(set(_POSE_FIELDS))
             if recording.topics[name].rate >= _MIN_RATE
         ]
         self.descriptions = [
             (name, str(message.data))
             for name in self._topics_of_type({"std_msgs/msg/String"})
             if name.endswith("robot_description")
-            for message in self._decoded(name, _MAX_DESCRIPTIONS)
+            for message in self._decode_first(name, _MAX_DESCRIPTIONS)
             if hasattr(message, "data")
         ]
         self.joints = [
@@ -196,7 +196,7 @@ class _Facts:
         ]
         self.poses = [poses for name in self._topics_of_type({_ODOMETRY}) if (poses := self._poses(name)) is not None]
         self.imus = [imu for name in self._topics_of_type({_IMU}) if (imu := self._imu(name)) is not None]
-        self.log = tuple(line for name in self._topics_of_type(_LOGS) for line in self._lines(name))
+        self.log = tuple(line for name in self._topics_of_type(_LOG_TYPES) for line in self._log_lines(name))
 
     def _publishers(self, topic: str) -> tuple[ObservedEndpoint, ...]:
         """Return the publishers of a static transform topic: only their QoS, because recordings have no node names."""
@@ -215,7 +215,7 @@ class _Facts:
         arrived, stamp = self._recording.received("/clock"), self._recording.stamps("/clock")
         return ObservedClock(arrived, stamp) if len(stamp) else None
 
-    def _decoded(self, topic: str, most: int) -> Iterator[Any]:
+    def _decode_first(self, topic: str, most: int) -> Iterator[Any]:
         """Yield the first messages on a topic; damaged ones are reported as problems of the recording.
 
         The definition in a recording can differ from the usual one: any field can be missing, and a message without
@@ -248,7 +248,7 @@ class _Facts:
 
     def _parts(self, topic: str) -> Iterator[NDArray[np.float64]]:
         """Yield the positions in successive messages, for parts of the recording."""
-        stamps, position = self._recording.stamps(topic), _POSES[self.topics[topic].type]
+        stamps, position = self._recording.stamps(topic), _POSE_FIELDS[self.topics[topic].type]
         for rows in _spread_messages(len(stamps)):
             messages = self._recording.messages(topic, int(stamps[rows].min(initial=NEVER)))
             found = []
@@ -262,7 +262,7 @@ class _Facts:
         """Return the joint states of a topic, or None if its messages have other fields."""
         if not self._recording.may_have_header(topic):
             return None
-        messages = list(self._decoded(topic, _MAX_DECODED))
+        messages = list(self._decode_first(topic, _MAX_DECODED))
         try:
             stamps = [int(message.header.stamp.sec) * SECOND + message.header.stamp.nanosec for message in messages]
             return joint_states(topic, stamps, messages)
@@ -274,7 +274,7 @@ class _Facts:
         try:
             rows = [
                 (message.header, message.child_frame_id, message.pose.pose)
-                for message in self._decoded(topic, _MAX_DECODED)
+                for message in self._decode_first(topic, _MAX_DECODED)
             ]
             frames = {(str(header.frame_id).lstrip("/"), str(child).lstrip("/")) for header, child, _ in rows}
             stamps = [int(header.stamp.sec) * SECOND + header.stamp.nanosec for header, _, _ in rows]
@@ -302,7 +302,7 @@ class _Facts:
                     [getattr(one, axis) for axis in "xyz"]
                     for one in (message.linear_acceleration, message.angular_velocity)
                 ]
-                for message in self._decoded(topic, _MAX_DECODED)
+                for message in self._decode_first(topic, _MAX_DECODED)
             ]
             values = np.array(pairs, dtype=np.float64).reshape(-1, 2, 3)
         except (AttributeError, TypeError, ValueError, OverflowError):
@@ -310,15 +310,18 @@ class _Facts:
         values = values[np.isfinite(values).all(axis=(1, 2))]
         return ObservedImu(topic, self._recording.frame(frame), values[:, 0], values[:, 1]) if frame else None
 
-    def _lines(self, topic: str) -> Iterator[ObservedLogLine]:
+    def _log_lines(self, topic: str) -> Iterator[ObservedLogLine]:
         received = self._recording.received(topic)
-        for arrived, message in zip(received.tolist(), self._decoded(topic, _MAX_DECODED), strict=False):
+        for arrived, message in zip(received.tolist(), self._decode_first(topic, _MAX_DECODED), strict=False):
             if hasattr(message, "name") and hasattr(message, "msg"):
                 yield ObservedLogLine(str(message.name), str(message.msg), arrived)
 
 
 def _spread_messages(messages: int) -> list[NDArray[np.int64]]:
     """Return the numbers of successive messages in parts that are spread over a topic, or of all messages."""
-    if messages <= _PARTS * _PART:
+    if messages <= _PART_COUNT * _MESSAGES_PER_PART:
         return [np.arange(messages)]
-    return [start + np.arange(_PART) for start in np.linspace(0, messages - _PART, _PARTS).astype(np.int64)]
+    return [
+        start + np.arange(_MESSAGES_PER_PART)
+        for start in np.linspace(0, messages - _MESSAGES_PER_PART, _PART_COUNT).astype(np.int64)
+    ]

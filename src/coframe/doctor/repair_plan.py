@@ -19,8 +19,8 @@ __all__ = ["RepairPlan", "plan_repair"]
 
 # Rules find the names that earlier rules have written, and findings have the names of the recording. So the rules that
 # change names come last.
-_ORDER = [name for name in RULES if name not in {"rename-frame", "prefix", "strip-slashes"}]
-_ORDER += ["rename-frame", "prefix", "strip-slashes"]
+_RULE_ORDER = [name for name in RULES if name not in {"rename-frame", "prefix", "strip-slashes"}]
+_RULE_ORDER += ["rename-frame", "prefix", "strip-slashes"]
 
 
 class RepairPlan(NamedTuple):
@@ -52,7 +52,7 @@ def plan_repair(reports: Iterable[Report]) -> RepairPlan:
             continue
         is_safe = bool(finding.repairs) and all(len(values[_subject(rule)]) == 1 for rule in finding.repairs)
         if is_safe and _are_valid(finding.repairs):
-            rules.update({rule: _ORDER.index(rule.partition(" ")[0]) for rule in finding.repairs})
+            rules.update({rule: _RULE_ORDER.index(rule.partition(" ")[0]) for rule in finding.repairs})
         else:
             own = (*finding.repairs, *finding.choices)
             choices.append((finding, list(dict.fromkeys(each for rule in own for each in values[_subject(rule)]))))

@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from coframe.doctor._edge import Edge
     from coframe.doctor.observation import Observation
 
-__all__ = ["AHEAD", "MIN_MESSAGES", "is_ahead", "is_ahead_by_design", "is_behind", "wrong_offset"]
+__all__ = ["MIN_LEAD", "MIN_MESSAGES", "is_ahead", "is_ahead_by_design", "is_behind", "wrong_offset"]
 
-AHEAD = 20 * MILLISECOND
+MIN_LEAD = 20 * MILLISECOND
 MIN_MESSAGES = 5
 _MAX_LAG = 500 * MILLISECOND
 # Localization nodes stamp map -> odom ahead of time, by their parameter transform_tolerance.
@@ -27,7 +27,7 @@ _TOLERANCE = 2 * SECOND
 
 def is_ahead(lags: NDArray[np.int64]) -> bool:
     """Return whether more than 5 % of some stamps are ahead of the clock on arrival, given arrival minus stamp."""
-    return bool(np.mean(lags < -AHEAD) > 0.05)
+    return bool(np.mean(lags < -MIN_LEAD) > 0.05)
 
 
 def is_behind(lags: NDArray[np.int64]) -> bool:

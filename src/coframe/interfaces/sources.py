@@ -67,12 +67,12 @@ class InterfaceFolder(NamedTuple):
 def sources() -> list[InterfaceFolder]:
     """Return all folders in which packages are searched, in order."""
     if is_search_disabled():
-        return _installed()
+        return _installed_folders()
     variables = tuple(os.environ.get(name, "") for name in (ENVIRONMENT, _PACKAGE_PATH, _PREFIXES))
-    return [*_sources(tuple(start_folders()), *variables), *_installed()]
+    return [*_sources(tuple(start_folders()), *variables), *_installed_folders()]
 
 
-def _installed() -> list[InterfaceFolder]:
+def _installed_folders() -> list[InterfaceFolder]:
     return [
         InterfaceFolder(f"installed package {each.distribution}", each.folder, 0, package=each.name)
         for each in installed_packages()

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe.messages._idl_expressions import evaluate
 from coframe.messages._idl_tokens import Tokens
-from coframe.messages._literals import checked
+from coframe.messages._literals import check_value
 from coframe.messages._parser import (
     Constant,
     Field,
@@ -237,7 +237,7 @@ class _IdlParser:
         self._tokens.expect("=")
         if len(self._constants) == MAX_CONSTANTS:
             raise self._tokens.error(f"the definition has more than {MAX_CONSTANTS} constants")
-        self._constants.setdefault((*scope, name), Constant(name, type_, checked(self._value(scope), type_)))
+        self._constants.setdefault((*scope, name), Constant(name, type_, check_value(self._value(scope), type_)))
 
     def _typedef(self, scope: tuple[str, ...]) -> None:
         type_ = self._type(scope)
@@ -373,9 +373,9 @@ def _scopes(scope: tuple[str, ...], parts: tuple[str, ...]) -> list[tuple[str, .
 
 def _default(value: Any, type_: AbstractType) -> Any:
     if not isinstance(type_, AbstractNestedType):
-        return checked(float(value) if _is_float(type_) and isinstance(value, int) else value, type_)
+        return check_value(float(value) if _is_float(type_) and isinstance(value, int) else value, type_)
     try:
-        return checked(ast.literal_eval(value), type_)  # rosidl writes lists as strings: "(1, 2, 3)".
+        return check_value(ast.literal_eval(value), type_)  # rosidl writes lists as strings: "(1, 2, 3)".
     except (SyntaxError, TypeError, MemoryError, RecursionError):
         raise ValueError(f'the default of a list must be a string such as "(1, 2)", not {value!r}') from None
 

@@ -20,7 +20,7 @@ from coframe.messages.definition import (
 )
 from coframe.messages.limits import check_digits
 
-__all__ = ["checked", "parse_literal"]
+__all__ = ["check_value", "parse_literal"]
 
 _BOOLEANS = {"true": True, "1": True, "false": False, "0": False}
 _FLOAT32_BOUND = 3.402823466e38
@@ -35,11 +35,11 @@ def parse_literal(text: str, type_: AbstractType) -> Any:
     if isinstance(type_, AbstractNestedType):
         if not (text.startswith("[") and text.endswith("]")):
             raise ValueError(f"the default of {describe(type_)} must be a list such as [1, 2], not {text}")
-        return checked([_single(item, type_.value_type) for item in _split_items(text)], type_)
-    return checked(_single(text, type_), type_)
+        return check_value([_single(item, type_.value_type) for item in _split_items(text)], type_)
+    return check_value(_single(text, type_), type_)
 
 
-def checked(value: Any, type_: AbstractType) -> Any:
+def check_value(value: Any, type_: AbstractType) -> Any:
     """Check that the type can hold a value, and return it as stored in messages.
 
     Raises:
@@ -93,7 +93,7 @@ def _checked_values(values: Any, type_: AbstractNestedType) -> list[Any]:
         raise ValueError(f"{describe(type_)} needs {type_.size} values, found {len(values)}")
     if isinstance(type_, BoundedSequence) and len(values) > type_.maximum_size:
         raise ValueError(f"{describe(type_)} can hold {type_.maximum_size} values, found {len(values)}")
-    return [checked(value, type_.value_type) for value in values]
+    return [check_value(value, type_.value_type) for value in values]
 
 
 def _single(text: str, type_: AbstractType) -> Any:

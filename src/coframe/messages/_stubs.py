@@ -81,7 +81,7 @@ class _Stub:
                 "from coframe.messages._hints import NumberArray, NumberSequence",
                 "from coframe.messages.message import Action, Message, Service",
                 "",
-                f"__all__ = [{', '.join(map(_quoted, definitions))}]",
+                f"__all__ = [{', '.join(map(_quote, definitions))}]",
                 "",
                 *classes,
                 "",
@@ -151,8 +151,8 @@ def _service(name: str) -> list[str]:
 def _constant(constant: Constant) -> str:
     if isinstance(constant.value, float) and not math.isfinite(constant.value):
         return "Final[float]"
-    return f"Final = {_quoted(constant.value) if isinstance(constant.value, str) else repr(constant.value)}"
+    return f"Final = {_quote(constant.value) if isinstance(constant.value, str) else repr(constant.value)}"
 
 
-def _quoted(text: str) -> str:
+def _quote(text: str) -> str:
     return f'"{text}"' if text.isidentifier() else repr(text)

@@ -61,9 +61,9 @@ def _lines(message: Any, most: int | None) -> Iterator[str]:
     for name in fields:
         value = getattr(message, name)
         if hasattr(value, "get_fields_and_field_types"):
-            yield from _nested(f"{name}:", "  ", list(_lines(value, most)))
+            yield from _indent_lines(f"{name}:", "  ", list(_lines(value, most)))
         elif isinstance(value, (list, tuple)) and value and hasattr(value[0], "get_fields_and_field_types"):
-            yield f"{name}:{_omitted(len(value), most)}"
+            yield f"{name}:{_omitted_text(len(value), most)}"
             for item in islice(value, most):
                 first, *others = _lines(item, most)
                 yield f"- {first}"
@@ -72,7 +72,7 @@ def _lines(message: Any, most: int | None) -> Iterator[str]:
             yield f"{name}: {_value(value, most)}"
 
 
-def _nested(title: str, indent: str, lines: list[str]) -> Iterator[str]:
+def _indent_lines(title: str, indent: str, lines: list[str]) -> Iterator[str]:
     if lines == ["{}"]:
         yield f"{title} {{}}"
         return
@@ -83,15 +83,15 @@ def _nested(title: str, indent: str, lines: list[str]) -> Iterator[str]:
 def _value(value: Any, most: int | None) -> str:
     if isinstance(value, str):
         shown = value if most is None else value[:most]
-        return _text(shown) + _omitted(len(value), most, "character")
+        return _text(shown) + _omitted_text(len(value), most, "character")
     if isinstance(value, bytes) and len(value) == 1:  # ROS's type byte
         return str(value[0])
     if isinstance(value, (list, tuple, array, np.ndarray, bytes, bytearray)):
-        return f"[{', '.join(_value(item, most) for item in islice(value, most))}]{_omitted(len(value), most)}"
+        return f"[{', '.join(_value(item, most) for item in islice(value, most))}]{_omitted_text(len(value), most)}"
     return _number(value)
 
 
-def _omitted(size: int, most: int | None, noun: str = "item") -> str:
+def _omitted_text(size: int, most: int | None, noun: str = "item") -> str:
     if most is None or size <= most:
         return ""
     return f"  # and {size - most} more {noun}{'' if size - most == 1 else 's'}"
@@ -115,10 +115,10 @@ def _number(value: Any) -> str:
 def _text(value: str) -> str:
     if _PLAIN_STRING.fullmatch(value) and value.lower() not in _RESERVED:
         return value
-    return '"' + "".join(map(_escaped, value)) + '"'
+    return '"' + "".join(map(_escape, value)) + '"'
 
 
-def _escaped(character: str) -> str:
+def _escape(character: str) -> str:
     if character in {'"', "\\"}:
         return f"\\{character}"
     if character.isprintable():

@@ -118,12 +118,12 @@ def _description(interface: Any) -> _Description:
     return _describe_type(
         name,
         {
-            "goal": _named(f"{name}_Goal"),
-            "result": _named(f"{name}_Result"),
-            "feedback": _named(f"{name}_Feedback"),
-            "send_goal_service": _named(f"{name}_SendGoal"),
-            "get_result_service": _named(f"{name}_GetResult"),
-            "feedback_message": _named(f"{name}_FeedbackMessage"),
+            "goal": _named_type(f"{name}_Goal"),
+            "result": _named_type(f"{name}_Result"),
+            "feedback": _named_type(f"{name}_Feedback"),
+            "send_goal_service": _named_type(f"{name}_SendGoal"),
+            "get_result_service": _named_type(f"{name}_GetResult"),
+            "feedback_message": _named_type(f"{name}_FeedbackMessage"),
         },
     )
 
@@ -136,15 +136,15 @@ def _message_fields(message: type[Message]) -> dict[str, AbstractType]:
 
 
 def _describe_service(name: str) -> _Description:
-    request, response = _named(f"{name}_Request"), _named(f"{name}_Response")
+    request, response = _named_type(f"{name}_Request"), _named_type(f"{name}_Response")
     info = _describe_type(_EVENT_INFO, dict(_EVENT_INFO_FIELDS))
     fields = {
-        "info": _named(_EVENT_INFO),
+        "info": _named_type(_EVENT_INFO),
         "request": BoundedSequence(request, 1),
         "response": BoundedSequence(response, 1),
     }
     event = _describe_type(f"{name}_Event", fields, {_EVENT_INFO: info})
-    fields = {"request_message": request, "response_message": response, "event_message": _named(event.name)}
+    fields = {"request_message": request, "response_message": response, "event_message": _named_type(event.name)}
     return _describe_type(name, fields, {event.name: event})
 
 
@@ -197,6 +197,6 @@ def _nested_name(type_: AbstractType) -> str | None:
     return "/".join(value.namespaced_name()) if isinstance(value, NamespacedType) else None
 
 
-def _named(name: str) -> NamespacedType:
+def _named_type(name: str) -> NamespacedType:
     *namespaces, last = name.split("/")
     return NamespacedType(tuple(namespaces), last)

@@ -21,14 +21,14 @@ if TYPE_CHECKING:
 
     from rclpy.node import Node
 
-__all__ = ["NODE_ERRORS", "initialized", "program", "spin_until_shutdown"]
+__all__ = ["NODE_ERRORS", "initialize_rclpy", "program", "spin_until_shutdown"]
 
 # The exceptions for invalid ROS arguments, names and parameters of a node.
 NODE_ERRORS: Final = (NameValidationException, ParameterException, RCLError, UnknownROSArgsError)
 
 
 @contextlib.contextmanager
-def initialized(args: list[str], domain_id: int | None) -> Iterator[None]:
+def initialize_rclpy(args: list[str], domain_id: int | None) -> Iterator[None]:
     """Initialize rclpy for the duration of the context. `rclpy.init` is a context manager only since Jazzy.
 
     Args:
@@ -51,7 +51,7 @@ def spin_until_shutdown(make_node: Callable[[], Node], args: list[str], domain_i
         domain_id: ROS domain. None: ROS_DOMAIN_ID or 0.
     """
     try:
-        with initialized(args, domain_id):
+        with initialize_rclpy(args, domain_id):
             rclpy.spin(make_node())
     except (KeyboardInterrupt, ExternalShutdownException):
         pass

@@ -35,7 +35,7 @@ class FrameRenamer:
         self._topics = (tf_topic, tf_static_topic)
         self._plans: dict[MessageSource, FrameNames | None] = {}
 
-    def renamed(self, source: MessageSource, data: bytes) -> bytes:
+    def rename_message(self, source: MessageSource, data: bytes) -> bytes:
         """Return the message with renamed frames; unchanged if it has no frames or is damaged."""
         if source not in self._plans:
             self._plans[source] = self._plan(source)

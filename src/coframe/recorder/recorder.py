@@ -221,7 +221,7 @@ class Recorder:
     def _put(self, message: ReceivedMessage) -> None:
         key = message.source[:2]
         topic = self.writer.add_topic(*key, offered_qos=self._qos.get(key, ()))
-        data = message.data if self._frames is None else self._frames.renamed(message.source, message.data)
+        data = message.data if self._frames is None else self._frames.rename_message(message.source, message.data)
         self.writer.write(topic, data, message.received, published=message.published, publisher=message.publisher)
 
 

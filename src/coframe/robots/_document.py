@@ -204,7 +204,7 @@ def read(data: str | bytes) -> Document:
     if len(data) > MAX_BYTES:
         raise RobotDescriptionError(f"the robot description has {len(data)} bytes; the maximum is {MAX_BYTES}")
     warnings: list[str] = []
-    text = data if isinstance(data, str) else _decoded(data, warnings)
+    text = data if isinstance(data, str) else _decode(data, warnings)
     try:
         return Document(_parse(text, warnings), text, warnings)
     except expat.ExpatError as error:
@@ -220,7 +220,7 @@ def read(data: str | bytes) -> Document:
     raise RobotDescriptionError(f"not well-formed XML: {reason}", line=line, hint=_xml_hint(text))
 
 
-def _decoded(data: bytes, warnings: list[str]) -> str:
+def _decode(data: bytes, warnings: list[str]) -> str:
     """Return the text of a document. An encoding declaration other than UTF-8 is removed."""
     encoding = _encoding(data, warnings)
     try:

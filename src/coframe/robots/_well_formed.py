@@ -73,7 +73,7 @@ def _well_formed(piece: re.Match[str]) -> str:
     if piece["data"] is not None:
         return piece[0]
     if piece["text"] is not None:
-        return _escaped(piece["text"])
+        return _escape(piece["text"])
     attributes = "" if piece["slash"] else _ATTRIBUTE.sub(_attribute, piece["attributes"])
     lines = "\n" * (piece["before"].count("\n") + piece["slash"].count("/") * piece["attributes"].count("\n"))
     return f"<{piece['slash']}{piece['tag']}{attributes}{lines}{piece['after']}{piece['empty']}>"
@@ -81,10 +81,10 @@ def _well_formed(piece: re.Match[str]) -> str:
 
 def _attribute(found: re.Match[str]) -> str:
     space, name, before, after, value = found.groups()
-    return f"{space or ' '}{name}{before}={after}{_escaped(value)}"
+    return f"{space or ' '}{name}{before}={after}{_escape(value)}"
 
 
-def _escaped(text: str) -> str:
+def _escape(text: str) -> str:
     return _REFERENCE.sub(_reference, text).replace("<", "&lt;").replace("]]>", "]]&gt;")
 
 

@@ -126,7 +126,7 @@ def destination(points: Any, out: Any, *, in_place: bool) -> Any:
             setattr(out, name, getattr(points, name))
     result.header = copy.copy(points.header)
     if out is None or not _copy_into(out.data, points.data):
-        result.data = _copied(points.data)
+        result.data = _copy_data(points.data)
     return result
 
 
@@ -199,7 +199,7 @@ def _memory(data: Any) -> memoryview:
         return memoryview(bytes(data))
 
 
-def _copied(data: Any) -> Any:
+def _copy_data(data: Any) -> Any:
     if isinstance(data, array):
         return data[:]
     return data.copy() if isinstance(data, np.ndarray) else array("B", bytes(data))

@@ -106,7 +106,7 @@ def read_times(
     if not known.size:
         return None
     if unit is not None:
-        found = _read(values, stamp, name, unit)
+        found = _read_field(values, stamp, name, unit)
         if found is None:
             limit = _MAX_SWEEP // SECOND
             raise ValueError(
@@ -116,7 +116,7 @@ def read_times(
     if known.min() == known.max():
         return None
     usual = "s" if values.dtype.kind == "f" else "ns"
-    readings = [one for each in UNITS if (one := _read(values, stamp, name, each)) is not None and one.sweep]
+    readings = [one for each in UNITS if (one := _read_field(values, stamp, name, each)) is not None and one.sweep]
     chosen = _most_plausible(readings, usual, period)
     if chosen is None:
         raise UnknownTimesError(
@@ -158,7 +158,7 @@ def _is_plausible(times: PointTimes, period: int) -> bool:
     return periods <= _MAX_PERIODS and (periods >= _MIN_PERIODS or _MIN_USUAL_SWEEP <= times.sweep <= _MAX_USUAL_SWEEP)
 
 
-def _read(values: NDArray[Any], stamp: int, field: str, unit: str) -> PointTimes | None:
+def _read_field(values: NDArray[Any], stamp: int, field: str, unit: str) -> PointTimes | None:
     """Convert the times of a field from one unit, or None if they are not near the stamp."""
     known = np.isfinite(values)
     largest = float(np.abs(values[known].astype(np.float64)).max()) * UNITS[unit]

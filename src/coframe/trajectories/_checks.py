@@ -19,7 +19,7 @@ __all__ = ["findings", "likely_unit", "looks_like_seconds"]
 
 MAX_NORM_ERROR = 1e-3
 MIN_SPACING = 1_000  # nanoseconds; no trajectory has a million poses per second
-_EARLIEST, _LATEST = 946_684_800, 4_102_444_800  # the years 2000 and 2100, in seconds
+_MIN_PLAUSIBLE_TIME, _MAX_PLAUSIBLE_TIME = 946_684_800, 4_102_444_800  # the years 2000 and 2100, in seconds
 _MAX_STEP = 3600 * SECOND
 _MIN_MOVES = 10
 # Mean resultant lengths of the directions of motion, seen from the moving frame.
@@ -39,7 +39,7 @@ def likely_unit(stamps: NDArray[np.int64]) -> int:
     first = abs(int(stamps[0])) if len(stamps) else 0
     step = abs(int(np.median(np.diff(stamps)))) if len(stamps) > 1 else 0
     for unit in (SECOND, MILLISECOND, MICROSECOND):
-        if _EARLIEST * SECOND < first * unit < _LATEST * SECOND and step * unit <= _MAX_STEP:
+        if _MIN_PLAUSIBLE_TIME * SECOND < first * unit < _MAX_PLAUSIBLE_TIME * SECOND and step * unit <= _MAX_STEP:
             return unit
     return SECOND if looks_like_seconds(stamps) else 1
 

@@ -36,7 +36,7 @@ __all__ = ["PLANES", "Comparison", "Delta", "PoseErrors", "Statistics", "compare
 # The axis that a projection to a plane removes.
 PLANES = {"xy": 2, "xz": 1, "yz": 0}
 _NUMBER = re.compile(r"\s*(\d+(?:\.\d*)?|\.\d+)\s*([a-z]*)\s*", re.ASCII)
-_FRAMES, _METERS = {"", "f", "frame", "frames"}, {"m", "meter", "meters", "metre", "metres"}
+_FRAME_UNITS, _METER_UNITS = {"", "f", "frame", "frames"}, {"m", "meter", "meters", "metre", "metres"}
 
 
 class Delta(NamedTuple):
@@ -217,10 +217,10 @@ def compare_trajectories(
     chosen = _checked_delta(delta)
     if body_offset is not None:
         estimate = estimate @ body_offset.replace(target=estimate.source, source=estimate.source, stamp=None)
-    estimate = _shifted(estimate, _signed_duration(t_offset))
+    estimate = _shift_stamps(estimate, _signed_duration(t_offset))
     method = _Method(align, n_to_align, align_origin)
     every = reference, estimate
-    reference, estimate = _associated(*every, method, max_difference)
+    reference, estimate = _associate_poses(*every, method, max_difference)
     time_shift, found = _constant_differences(*every, method, max_difference)
     if time_shift is not None:
         time_shift = time_shift._replace(offset=time_shift.offset + _signed_duration(t_offset))
@@ -229,7 +229,7 @@ def compare_trajectories(
     alignment = method.alignment(reference, estimate)
     estimate = estimate if alignment is None else alignment.apply(estimate)
     if project is not None:
-        reference, estimate = _projected(reference, PLANES[project]), _projected(estimate, PLANES[project])
+        reference, estimate = _project_poses(reference, PLANES[project]), _project_poses(estimate, PLANES[project])
     return Comparison(
         reference,
         estimate,
@@ -280,13 +280,13 @@ def _signed_duration(given: DurationLike) -> int:
     return int(given) if isinstance(given, int) else duration_ns(given)
 
 
-def _shifted(poses: Transform, offset: int) -> Transform:
+def _shift_stamps(poses: Transform, offset: int) -> Transform:
     if poses.stamps is None or not offset:
         return poses
     return poses.replace(stamp=poses.stamps + offset)
 
 
-def _associated(
+def _associate_poses(
     reference: Transform, estimate: Transform, method: _Method, max_difference: DurationLike
 ) -> tuple[Transform, Transform]:
     """Return the pairs of poses; the error for none names the time shift after which both are alike."""
@@ -313,7 +313,9 @@ def _constant_differences(
     # The shift may lie between the stamps.
     nearest = max(duration_ns(max_difference), *map(_period, (reference, estimate)))
     with suppress(TrajectoryError):
-        offset = find_body_offset(*associate(reference, _shifted(estimate, shift.offset), nearest), method.alignment)
+        offset = find_body_offset(
+            *associate(reference, _shift_stamps(estimate, shift.offset), nearest), method.alignment
+        )
     return shift, offset
 
 
@@ -324,7 +326,7 @@ def _period(poses: Transform) -> int:
     return int(np.median(np.abs(np.diff(poses.stamps))))
 
 
-def _projected(poses: Transform, axis: int) -> Transform:
+def _project_poses(poses: Transform, axis: int) -> Transform:
     """Return poses without the coordinate along an axis, and with the rotation about it only."""
     positions, angles = poses.translation.copy(), np.zeros((len(poses), 3))
     positions[:, axis] = 0.0
@@ -345,9 +347,9 @@ def parse_delta(text: str) -> Delta:
         (Delta(value=10, unit='frames'), 'meters', 0.1)
     """
     match = _NUMBER.fullmatch(text)
-    if match and match[2] in _FRAMES | _METERS:
+    if match and match[2] in _FRAME_UNITS | _METER_UNITS:
         value = float(match[1])
-        is_meters = match[2] in _METERS
+        is_meters = match[2] in _METER_UNITS
         if value > 0 and (is_meters or value.is_integer()):
             return Delta(value, "meters") if is_meters else Delta(int(value))
     elif match and (nanoseconds := duration_ns(text)) > 0:
@@ -379,7 +381,7 @@ def _as_dict(errors: PoseErrors) -> dict[str, Any]:
 def _absolute_errors(reference: Transform, estimate: Transform) -> PoseErrors:
     distance = np.linalg.norm(estimate.translation - reference.translation, axis=1)
     turn = quaternion.multiply(quaternion.inverse(estimate.quaternion), reference.quaternion)
-    return PoseErrors(distance, _angles(turn), np.arange(len(distance)))
+    return PoseErrors(distance, _rotation_angles(turn), np.arange(len(distance)))
 
 
 def _relative(reference: Transform, estimate: Transform, delta: Delta) -> PoseErrors:
@@ -392,7 +394,7 @@ def _relative(reference: Transform, estimate: Transform, delta: Delta) -> PoseEr
     (true_t, true_q), (found_t, found_q) = (_motions(poses, ends) for poses in (reference, estimate))
     inverse = quaternion.inverse(true_q)
     distance = np.linalg.norm(quaternion.rotate(inverse, found_t - true_t), axis=1)
-    return PoseErrors(distance, _angles(quaternion.multiply(inverse, found_q)), ends[1:])
+    return PoseErrors(distance, _rotation_angles(quaternion.multiply(inverse, found_q)), ends[1:])
 
 
 def _motions(poses: Transform, ends: NDArray[np.intp]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -427,6 +429,6 @@ def _motion_ends(poses: Transform, stamps: NDArray[np.int64] | None, delta: Delt
     return np.array(ends, dtype=np.intp)
 
 
-def _angles(q: NDArray[np.float64]) -> NDArray[np.float64]:
+def _rotation_angles(q: NDArray[np.float64]) -> NDArray[np.float64]:
     angles: NDArray[np.float64] = 2.0 * np.arctan2(np.linalg.norm(q[:, :3], axis=1), np.abs(q[:, 3]))
     return angles

@@ -28,14 +28,14 @@ _MIN_PAIRS = 10
 _MIN_ANGLE = np.radians(2.0)
 _MIN_SHIFT = MILLISECOND
 # An offset explains most of an error if it leaves less than this share of it.
-_LEFT = 0.5
-_ROUNDS = 30
+_STEP_RATIO = 0.5
+_MAX_ROUNDS = 30
 _ROUNDS_PER_SHIFT = 4  # each begins with the offset of the shift before
-_STEPS = 160  # of the search for a time shift
+_SEARCH_STEPS = 160  # of the search for a time shift
 _RESOLUTION = 10_000  # nanoseconds
 _SEARCHED_POSES = 400
-_SMOOTHED = 4  # periods before and after a pose
-_GOLDEN = (5**0.5 - 1) / 2
+_SMOOTHING_PERIODS = 4  # periods before and after a pose
+_GOLDEN_RATIO = (5**0.5 - 1) / 2
 
 
 class BodyOffset(NamedTuple):
@@ -80,14 +80,14 @@ def find_body_offset(reference: Transform, estimate: Transform, align: Align) ->
         return None
     offset = Transform()
     try:
-        before = _aligned(reference, estimate, align)[0]
-        for _ in range(_ROUNDS):
-            poses, scale = _aligned(reference, estimate @ offset, align)
+        before = _align(reference, estimate, align)[0]
+        for _ in range(_MAX_ROUNDS):
+            poses, scale = _align(reference, estimate @ offset, align)
             step = _offset_step(reference, poses, scale)
             offset = offset @ step
             if float(np.abs(step.log()).max()) < 1e-12:
                 break
-        after = _aligned(reference, estimate @ offset, align)[0]
+        after = _align(reference, estimate @ offset, align)[0]
     except TrajectoryError:  # The positions do not determine an alignment.
         return None
     translations = _translation_rmse(reference, before), _translation_rmse(reference, after)
@@ -95,10 +95,10 @@ def find_body_offset(reference: Transform, estimate: Transform, align: Align) ->
     angle = float(np.linalg.norm(quaternion.to_rotvec(offset.quaternion)))
     # Another world frame also turns all poses of a robot on a plane, but it moves them by the angle times the extent.
     extent = float(np.sqrt(reference.translation.var(axis=0).sum()))
-    is_near = translations[1] < max(_LEFT * translations[0], _LEFT * 2.0 * np.sin(angle / 2.0) * extent)
-    turned = angle > _MIN_ANGLE and rotations[1] < _LEFT * rotations[0] and is_near
+    is_near = translations[1] < max(_STEP_RATIO * translations[0], _STEP_RATIO * 2.0 * np.sin(angle / 2.0) * extent)
+    turned = angle > _MIN_ANGLE and rotations[1] < _STEP_RATIO * rotations[0] and is_near
     # A lever arm can only be distinguished from noise if it explains the translations, and nothing gets worse.
-    moved = translations[1] < _LEFT * translations[0] and rotations[1] < 1.01 * rotations[0] + 1e-9
+    moved = translations[1] < _STEP_RATIO * translations[0] and rotations[1] < 1.01 * rotations[0] + 1e-9
     is_arm = float(np.linalg.norm(offset.translation)) > 3.0 * translations[1] + 1e-6
     if not (turned or (moved and is_arm)):
         return None
@@ -122,39 +122,39 @@ def find_time_shift(
     """
     if reference.stamps is None or estimate.stamps is None or min(len(reference), len(estimate)) < _MIN_PAIRS:
         return None
-    moving = _Moving(reference, estimate, align, with_offset=with_offset)
+    moving = _ShiftedPair(reference, estimate, align, with_offset=with_offset)
     if not moving.is_possible:
         return None
-    steps = _STEPS // 2 if with_offset else _STEPS
+    steps = _SEARCH_STEPS // 2 if with_offset else _SEARCH_STEPS
     shifts = np.linspace(-moving.limit, moving.limit, steps + 1)
     best = shifts[int(np.argmin([moving.error(shift) for shift in shifts]))]
     low, high = best - 2 * moving.limit / steps, best + 2 * moving.limit / steps
     while high - low > _RESOLUTION:
-        inner = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+        inner = high - _GOLDEN_RATIO * (high - low), low + _GOLDEN_RATIO * (high - low)
         if moving.error(inner[0]) <= moving.error(inner[1]):
             high = inner[1]
         else:
             low = inner[0]
     found = (low + high) / 2
     before, after = moving.error(0.0), moving.error(found)
-    if abs(found) < _MIN_SHIFT or not after < _LEFT * before:
+    if abs(found) < _MIN_SHIFT or not after < _STEP_RATIO * before:
         return None
     return TimeShift(round(found), (before, after))
 
 
-class _Moving:
+class _ShiftedPair:
     """The poses of two trajectories at common times, with the estimate shifted in time."""
 
     def __init__(self, reference: Transform, estimate: Transform, align: Align, *, with_offset: bool) -> None:
         order = [np.argsort(poses.stamps, kind="stable") for poses in (reference, estimate)]  # type: ignore[arg-type]
         reference, self._estimate = reference[order[0]], estimate[order[1]]
-        self._align, self._with_offset = align, with_offset
+        self._alignment, self._with_offset = align, with_offset
         self._offset = Transform()
         times = np.asarray(reference.stamps, dtype=np.int64)
         self._times = np.asarray(self._estimate.stamps, dtype=np.int64)
-        width = _SMOOTHED * max(_period(times), _period(self._times))
-        self._positions = _smoothed(self._times, self._estimate.translation, width)
-        positions = _smoothed(times, reference.translation, width)
+        width = _SMOOTHING_PERIODS * max(_period(times), _period(self._times))
+        self._positions = _smooth_positions(self._times, self._estimate.translation, width)
+        positions = _smooth_positions(times, reference.translation, width)
         common = min(int(times[-1]), int(self._times[-1])) - max(int(times[0]), int(self._times[0]))
         self.limit = float(min(MAX_SHIFT, max(common, 0) // 4))
         first, last = self._times[0] + self.limit, self._times[-1] - self.limit
@@ -170,9 +170,9 @@ class _Moving:
         poses = self._poses(shift)
         try:
             for _ in range(_ROUNDS_PER_SHIFT if self._with_offset else 0):
-                near, scale = _aligned(self._reference, poses @ self._offset, self._align)
+                near, scale = _align(self._reference, poses @ self._offset, self._alignment)
                 self._offset = self._offset @ _offset_step(self._reference, near, scale)
-            near, _ = _aligned(self._reference, poses @ self._offset, self._align)
+            near, _ = _align(self._reference, poses @ self._offset, self._alignment)
         except TrajectoryError:
             return float("inf")
         return _translation_rmse(self._reference, near)
@@ -197,17 +197,17 @@ def _period(stamps: NDArray[np.int64]) -> float:
     return float(np.median(np.diff(stamps)))
 
 
-def _smoothed(stamps: NDArray[np.int64], positions: NDArray[np.float64], width: float) -> NDArray[np.float64]:
+def _smooth_positions(stamps: NDArray[np.int64], positions: NDArray[np.float64], width: float) -> NDArray[np.float64]:
     """Return positions with less noise; between two stamps, noise averages out, which would attract the search."""
     known = (stamps - stamps[0]).astype(np.float64)
     parts = [
         np.stack([np.interp(known + offset, known, positions[:, axis]) for axis in range(3)], axis=1)
-        for offset in np.linspace(-width, width, 4 * _SMOOTHED + 1)
+        for offset in np.linspace(-width, width, 4 * _SMOOTHING_PERIODS + 1)
     ]
     return np.asarray(np.mean(parts, axis=0))
 
 
-def _aligned(reference: Transform, estimate: Transform, align: Align) -> tuple[Transform, float]:
+def _align(reference: Transform, estimate: Transform, align: Align) -> tuple[Transform, float]:
     alignment = align(reference, estimate)
     return (estimate, 1.0) if alignment is None else (alignment.apply(estimate), alignment.scale)
 

@@ -50,7 +50,7 @@ _SUFFIXES = {
 }
 TRAJECTORY_SUFFIXES = frozenset(_SUFFIXES) - {".parquet"}  # of files that can be read
 # Text takes twenty times as much memory as numbers, so only this many rows are formatted at once.
-_ROWS = 10_000
+_ROWS_PER_BATCH = 10_000
 _Rows = tuple[Transform, "Mapping[str, NDArray[np.int64]]"]  # poses, and more columns
 
 
@@ -99,18 +99,18 @@ def write_trajectory(
         raise ValueError(f"No format named {kind!r}. Known formats: {', '.join(FORMATS)}.")
     if columns is not None and kind not in FORMATS_WITH_COLUMNS:
         raise ValueError(f"{kind} has a fixed number of columns. Formats: {', '.join(FORMATS_WITH_COLUMNS)}.")
-    batches = _checked([poses] if isinstance(poses, Transform) else poses)
+    batches = _check_batches([poses] if isinstance(poses, Transform) else poses)
     first = next(batches, None)
     if first is None:
         raise ValueError("A trajectory needs at least one batch of poses; the iterable has none.")
     batches = _report_progress(chain([first], batches), progress or (lambda _written: None))
     rows = ((batch, {} if columns is None else columns(batch)) for batch in batches)
-    if kind in _TEXT:
+    if kind in _TEXT_WRITERS:
         with _open_text_stream(target) as stream:
             for number, (batch, others) in enumerate(rows):
                 if kind in _HEADERS and number == 0:
                     stream.write(",".join([_HEADERS[kind], *others]) + "\n")
-                lines = _TEXT[kind](batch)
+                lines = _TEXT_WRITERS[kind](batch)
                 if others:
                     more = zip(*(values.tolist() for values in others.values()), strict=True)
                     lines = (",".join([line, *map(str, each)]) for line, each in zip(lines, more, strict=True))
@@ -123,7 +123,7 @@ def write_trajectory(
         _write_parquet(rows, Path(target))
 
 
-def _checked(batches: Iterable[Transform]) -> Iterator[Transform]:
+def _check_batches(batches: Iterable[Transform]) -> Iterator[Transform]:
     for poses in batches:
         if poses.stamps is None or len(poses.shape) != 1:
             stamps = "no stamps" if poses.stamps is None else "stamps"
@@ -134,11 +134,11 @@ def _checked(batches: Iterable[Transform]) -> Iterator[Transform]:
 
 
 def _report_progress(batches: Iterable[Transform], progress: Callable[[int], object]) -> Iterator[Transform]:
-    """Yield the batches in parts of at most `_ROWS` rows, and report how many have been written."""
+    """Yield the batches in parts of at most `_ROWS_PER_BATCH` rows, and report how many have been written."""
     written = 0
     for poses in batches:
-        for start in range(0, len(poses), _ROWS):
-            part = poses if len(poses) <= _ROWS else poses[start : start + _ROWS]
+        for start in range(0, len(poses), _ROWS_PER_BATCH):
+            part = poses if len(poses) <= _ROWS_PER_BATCH else poses[start : start + _ROWS_PER_BATCH]
             yield part
             written += len(part)
             progress(written)
@@ -158,28 +158,28 @@ def _text_file(path: Path) -> Iterator[TextIO]:
         yield stream
 
 
-def _tum(poses: Transform) -> Iterator[str]:
+def _format_tum(poses: Transform) -> Iterator[str]:
     for stamp, row in zip(_stamps(poses).tolist(), _values(poses).tolist(), strict=True):
         yield f"{seconds(stamp)} {' '.join(map(repr, row))}"
 
 
-def _kitti(poses: Transform) -> Iterator[str]:
+def _format_kitti(poses: Transform) -> Iterator[str]:
     for row in poses.matrix[:, :3].reshape(-1, 12).tolist():
         yield " ".join(map(repr, row))
 
 
-def _csv(poses: Transform) -> Iterator[str]:
+def _format_csv(poses: Transform) -> Iterator[str]:
     for stamp, row in zip(_stamps(poses).tolist(), _values(poses).tolist(), strict=True):
         yield f"{stamp},{','.join(map(repr, row))}"
 
 
-def _euroc(poses: Transform) -> Iterator[str]:
+def _format_euroc(poses: Transform) -> Iterator[str]:
     values = _values(poses)[:, (0, 1, 2, 6, 3, 4, 5)]
     for stamp, row in zip(_stamps(poses).tolist(), values.tolist(), strict=True):
         yield f"{stamp},{','.join(map(repr, row))}"
 
 
-_TEXT = {"tum": _tum, "kitti": _kitti, "euroc": _euroc, "csv": _csv}
+_TEXT_WRITERS = {"tum": _format_tum, "kitti": _format_kitti, "euroc": _format_euroc, "csv": _format_csv}
 _HEADERS = {"csv": ",".join(("stamp_ns", *POSE_COLUMNS)), "euroc": EUROC_HEADER}
 
 

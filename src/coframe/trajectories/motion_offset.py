@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 __all__ = ["MotionOffset", "motion_offset"]
 
-_STEP = 0.05  # seconds, of the grid for the first offset
+_GRID_STEP = 0.05  # seconds, of the grid for the first offset
 _MIN_OVERLAP = 10.0  # seconds
 _MAX_CELLS = 1 << 23  # of the grid: 116 hours
 _WINDOWS = (0.4, 1.0, 2.5)  # seconds in which the body turns by the angles that are compared
@@ -37,10 +37,12 @@ _MAX_SECOND_PEAK = 0.9  # of the highest correlation, at another offset
 _PEAK_WIDTH = 2.0  # seconds on both sides of the highest correlation that belong to it
 _MAX_DEVIATION = 10 * MILLISECOND
 _ITERATIONS = 15
-_CONVERGED = 1e-5  # seconds
-_HUBER = 2.5  # robust standard deviations up to which residuals count fully
-_MAD = 1.4826  # The standard deviation of a normal distribution is this multiple of its median absolute deviation.
-_SIGNIFICANT = 4.0  # standard deviations of a drift
+_CONVERGENCE_TOLERANCE = 1e-5  # seconds
+_HUBER_LIMIT = 2.5  # robust standard deviations up to which residuals count fully
+_MAD_TO_DEVIATION = (
+    1.4826  # The standard deviation of a normal distribution is this multiple of its median absolute deviation.
+)
+_MIN_SIGNIFICANCE = 4.0  # standard deviations of a drift
 
 
 class MotionOffset(NamedTuple):
@@ -104,7 +106,7 @@ class _Rotations:
 
     def on_grid(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return the angles after the times of a grid, and 1 where they are known, otherwise 0."""
-        times = np.arange(0.0, self.duration, _STEP)
+        times = np.arange(0.0, self.duration, _GRID_STEP)
         known = self.covers(times, _WINDOWS[0])
         angles = np.zeros(len(times))
         angles[known] = self.angles(times[known], _WINDOWS[0])
@@ -148,7 +150,7 @@ def motion_offset(
     """
     one, other = _Rotations(*first), _Rotations(*second)
     rough, correlation = _rough_offset(one, other)
-    fit = _refined(one, other, rough)
+    fit = _refine_fit(one, other, rough)
     deviation = fit.deviation * SECOND
     if not deviation <= _MAX_DEVIATION:
         raise TrajectoryError(
@@ -163,20 +165,20 @@ def motion_offset(
 
 def _rough_offset(one: _Rotations, other: _Rotations) -> tuple[float, float]:
     """Return the offset with the highest correlation, in seconds to add to the times of the other, and that value."""
-    cells = int(np.ceil((one.duration + other.duration) / _STEP)) + 2
+    cells = int(np.ceil((one.duration + other.duration) / _GRID_STEP)) + 2
     if cells > _MAX_CELLS:
         raise TrajectoryError("the trajectories are longer than 116 hours; cut them first")
     size = 1 << (cells - 1).bit_length()
     (a, known_a), (b, known_b) = one.on_grid(), other.on_grid()
     a, b = (a - _mean(a, known_a)) * known_a, (b - _mean(b, known_b)) * known_b
-    overlap = _correlate(known_a, known_b, size) * _STEP
+    overlap = _correlate(known_a, known_b, size) * _GRID_STEP
     energy = _correlate(a * a, known_b, size) * _correlate(known_a, b * b, size)
     enough = overlap >= min(_MIN_OVERLAP, 0.5 * min(one.duration, other.duration))
     floor = 1e-6 * float(np.sum(a * a)) * float(np.sum(b * b))
     values = np.where(enough & (energy > floor), _correlate(a, b, size) / np.sqrt(np.maximum(energy, 1e-300)), -1.0)
     best = int(values.argmax())
     cells_later = np.arange(size)
-    lags = np.where(cells_later < len(a), cells_later, cells_later - size) * _STEP
+    lags = np.where(cells_later < len(a), cells_later, cells_later - size) * _GRID_STEP
     peak = float(values[best])
     distances = np.abs(lags - lags[best])
     elsewhere = float(values[distances > _PEAK_WIDTH].max(initial=-1.0))
@@ -204,7 +206,7 @@ def _mean(values: NDArray[np.float64], known: NDArray[np.float64]) -> float:
     return float((values * known).sum() / max(known.sum(), 1.0))
 
 
-def _refined(one: _Rotations, other: _Rotations, rough: float) -> _Fit:
+def _refine_fit(one: _Rotations, other: _Rotations, rough: float) -> _Fit:
     """Return the most precise fit of several windows: noise needs longer ones, quick motion needs shorter ones."""
     fits = [_fit_window(one, other, rough, window) for window in _WINDOWS]
     return min(fits, key=lambda fit: fit.deviation)
@@ -217,7 +219,7 @@ def _fit_window(one: _Rotations, other: _Rotations, rough: float, window: float)
     times = times[one.covers(times, window)]
     middle = 0.5 * (begin + end)
     fit = _fit(one, other, times, window, _Fit(rough, 0.0, np.inf, np.inf, middle), free=2)
-    if abs(fit.drift) <= _SIGNIFICANT * fit.drift_deviation:
+    if abs(fit.drift) <= _MIN_SIGNIFICANCE * fit.drift_deviation:
         fit = _fit(one, other, times, window, _Fit(rough, 0.0, np.inf, np.inf, middle), free=1)
     return fit
 
@@ -244,7 +246,7 @@ def _fit(
         if np.count_nonzero(used) < _MIN_TIMES // 2:
             return fit
         now, at, since = times[used], shifted[used], since[used]
-        slopes, instruments = (_slopes(each, center, step, window) for each, center in ((other, at), (one, now)))
+        slopes, instruments = (_fit_slopes(each, center, step, window) for each, center in ((other, at), (one, now)))
         columns = [*range(free), 2]
         matrix = np.stack([slopes, slopes * since, np.ones(len(at))], axis=1)[:, columns]
         instrument = np.stack([instruments, instruments * since, np.ones(len(at))], axis=1)[:, columns]
@@ -260,12 +262,12 @@ def _fit(
             float(deviations[1]) if free == 2 else np.inf,
             fit.middle,
         )
-        if abs(change[0]) < _CONVERGED:
+        if abs(change[0]) < _CONVERGENCE_TOLERANCE:
             break
     return fit
 
 
-def _slopes(one: _Rotations, times: NDArray[np.float64], step: float, window: float) -> NDArray[np.float64]:
+def _fit_slopes(one: _Rotations, times: NDArray[np.float64], step: float, window: float) -> NDArray[np.float64]:
     """Return by how much the angles after some times change per second of offset."""
     return np.asarray((one.angles(times - step, window) - one.angles(times + step, window)) / (2 * step))
 
@@ -275,8 +277,8 @@ def _robust_step(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the change of the parameters with Huber's weights, and their covariance for independent residuals."""
     centered = residual - np.median(residual)
-    spread = max(_MAD * float(np.median(np.abs(centered))), 1e-9)
-    weights = np.minimum(1.0, _HUBER * spread / np.maximum(np.abs(centered), 1e-300))
+    spread = max(_MAD_TO_DEVIATION * float(np.median(np.abs(centered))), 1e-9)
+    weights = np.minimum(1.0, _HUBER_LIMIT * spread / np.maximum(np.abs(centered), 1e-300))
     weighted = instrument * weights[:, None]
     inverse = np.linalg.pinv(weighted.T @ matrix)
     covariance = spread**2 * inverse @ (instrument.T @ instrument) @ inverse.T

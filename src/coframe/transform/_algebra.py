@@ -110,7 +110,7 @@ class TransformAlgebra(TransformValues):
         if self.covariance is None:
             return found
         return _replace_covariance(
-            found, _covariance.inverted(self.covariance, self.rotation, self.translation), self.exact_edges
+            found, _covariance.invert_covariance(self.covariance, self.rotation, self.translation), self.exact_edges
         )
 
     def interpolate(
@@ -226,7 +226,7 @@ class TransformAlgebra(TransformValues):
             FrameMismatchException: The frames differ.
             ValueError: There is no transform, or the shapes differ.
         """
-        return _joined(list(transforms), "stack", np.stack)
+        return _join(list(transforms), "stack", np.stack)
 
     @classmethod
     def concatenate(cls, transforms: Any) -> Transform:
@@ -242,9 +242,7 @@ class TransformAlgebra(TransformValues):
             FrameMismatchException: The frames differ.
             ValueError: There is no transform, or the other axes differ.
         """
-        return _joined(
-            [each if each.shape else cls.stack([each]) for each in transforms], "concatenate", np.concatenate
-        )
+        return _join([each if each.shape else cls.stack([each]) for each in transforms], "concatenate", np.concatenate)
 
     def with_covariance(self, covariance: ArrayLike | None, convention: str = "ros") -> Transform:
         """Return this pose with a covariance; None removes it.
@@ -259,7 +257,7 @@ class TransformAlgebra(TransformValues):
         """
         if covariance is None:
             return _replace_covariance(self, None, ())
-        given = _covariance.checked(covariance, self.shape)
+        given = _covariance.check_covariances(covariance, self.shape)
         return _replace_covariance(self, _covariance.from_convention(given, self.rotation, convention), ())
 
     def fuse(self, other: Transform) -> Transform:
@@ -386,7 +384,7 @@ def _interpolated_stamps(a: TransformValues, b: TransformValues, fraction: Array
     return start + np.round(fraction * length).astype(np.int64)
 
 
-def _joined(transforms: list[Any], what: str, join: Any) -> Transform:
+def _join(transforms: list[Any], what: str, join: Any) -> Transform:
     if not transforms:
         raise ValueError(f"{what}() needs at least one transform")
     target, source = transforms[0].target, transforms[0].source

@@ -80,7 +80,7 @@ def checked_points(values: ArrayLike) -> NDArray[Any]:
     return points
 
 
-def normalized(q: Array) -> Array:
+def normalize_quaternions(q: Array) -> Array:
     """Return quaternions (..., 4) with unit length, also very short and very long ones.
 
     Raises:

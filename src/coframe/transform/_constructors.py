@@ -10,7 +10,7 @@ import numpy as np
 from coframe import quaternion
 from coframe.errors import InvalidArgumentException
 from coframe.transform._algebra import TransformAlgebra
-from coframe.transform._arguments import checked_rotation, checked_vectors, normalized
+from coframe.transform._arguments import checked_rotation, checked_vectors, normalize_quaternions
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -195,7 +195,7 @@ class TransformConstructors(TransformAlgebra):
             ValueError: ``dual_quaternion`` has another shape.
         """
         given = checked_vectors(dual_quaternion, 8, "dual_quaternion")
-        real = normalized(given[..., :4])
+        real = normalize_quaternions(given[..., :4])
         dual = given[..., 4:] / np.linalg.norm(given[..., :4], axis=-1, keepdims=True)
         t = 2.0 * quaternion.multiply(dual, quaternion.inverse(real))[..., :3]
         return _create(cls, t, real, target=target, source=source, stamp=stamp)

@@ -49,7 +49,7 @@ class Ellipsoid(NamedTuple):
     radii: Array
 
 
-def checked(covariance: ArrayLike, shape: tuple[int, ...], name: str = "covariance") -> Array:
+def check_covariances(covariance: ArrayLike, shape: tuple[int, ...], name: str = "covariance") -> Array:
     """Return covariances of a batch as an array (*shape, 6, 6).
 
     Raises:
@@ -94,7 +94,7 @@ def square(values: ArrayLike, name: str) -> Array:
     raise ValueError(f"{name} must have shape (..., 6, 6) or (..., 36), not {array.shape}")
 
 
-def turned(covariance: Array, rotation: Array) -> Array:
+def rotate_covariances(covariance: Array, rotation: Array) -> Array:
     """Return covariances along other axes: D C D^T."""
     both = np.zeros((*rotation.shape[:-2], 6, 6))
     both[..., :3, :3] = both[..., 3:, 3:] = rotation
@@ -103,12 +103,12 @@ def turned(covariance: Array, rotation: Array) -> Array:
 
 def to_body(covariance: Array, rotation: Array) -> Array:
     """Return the covariance of xi, along the axes of the source."""
-    return turned(covariance, np.swapaxes(rotation, -1, -2))
+    return rotate_covariances(covariance, np.swapaxes(rotation, -1, -2))
 
 
 def from_body(covariance: Array, rotation: Array) -> Array:
     """Return a covariance along the axes of the target from that of xi."""
-    return turned(covariance, rotation)
+    return rotate_covariances(covariance, rotation)
 
 
 def to_convention(covariance: Array, rotation: Array, convention: str) -> Array:
@@ -117,7 +117,7 @@ def to_convention(covariance: Array, rotation: Array, convention: str) -> Array:
     if convention == "ros":
         return covariance
     body = to_body(covariance, rotation)
-    return _reordered(body) if convention == "gtsam" else body
+    return _reorder(body) if convention == "gtsam" else body
 
 
 def from_convention(covariance: Array, rotation: Array, convention: str) -> Array:
@@ -125,7 +125,7 @@ def from_convention(covariance: Array, rotation: Array, convention: str) -> Arra
     _check_convention(convention)
     if convention == "ros":
         return covariance
-    return from_body(_reordered(covariance) if convention == "gtsam" else covariance, rotation)
+    return from_body(_reorder(covariance) if convention == "gtsam" else covariance, rotation)
 
 
 def adjoint(rotation: Array, translation: Array) -> Array:
@@ -136,9 +136,9 @@ def adjoint(rotation: Array, translation: Array) -> Array:
     return matrix
 
 
-def inverted(covariance: Array, rotation: Array, translation: Array) -> Array:
+def invert_covariance(covariance: Array, rotation: Array, translation: Array) -> Array:
     """Return the covariance of the inverse of a transform: its error is -Ad(T) xi."""
-    return turned(_conjugate(_lever_matrix(translation), covariance), np.swapaxes(rotation, -1, -2))
+    return rotate_covariances(_conjugate(_lever_matrix(translation), covariance), np.swapaxes(rotation, -1, -2))
 
 
 def compound_covariances(first: Array | None, second: Array | None, rotation: Array, translation: Array) -> Array:
@@ -155,7 +155,7 @@ def compound_covariances(first: Array | None, second: Array | None, rotation: Ar
     """
     arm = (rotation @ translation[..., None])[..., 0]
     a = None if first is None else _conjugate(_lever_matrix(-arm), first)
-    b = None if second is None else turned(second, rotation)
+    b = None if second is None else rotate_covariances(second, rotation)
     if a is None or b is None:
         return a if b is None else b  # type: ignore[return-value]  # one of them is known
     a, b = np.broadcast_arrays(a, b)
@@ -260,7 +260,7 @@ def _product(matrix: Array, vector: Array) -> Array:
     return result
 
 
-def _reordered(covariance: Array) -> Array:
+def _reorder(covariance: Array) -> Array:
     return covariance[..., _ROTATION_FIRST, :][..., _ROTATION_FIRST]
 
 

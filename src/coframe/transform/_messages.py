@@ -186,7 +186,7 @@ def fill_message(message_type: type, transform: Transform, frame: str | None, st
                 _set_stamp(place.headers[0].stamp, int(stamps[i]))
             if i == 0:
                 _set_stamp(place.headers[-1].stamp, int(stamps[i]))
-    for holder in _children(message):
+    for holder in _messages_with_child(message):
         holder.child_frame_id = transform.source or ""
     return message
 
@@ -309,7 +309,7 @@ def _headers(message: Any, found: Contents) -> list[Any]:
     return list({id(header): header for header in headers}.values())
 
 
-def _children(message: Any) -> list[Any]:
+def _messages_with_child(message: Any) -> list[Any]:
     """Return the messages with a child frame: this one, or those in its list."""
     lists = [getattr(message, name, ()) for name in _POSE_LISTS]
     return [each for each in (message, *(part for parts in lists for part in parts)) if hasattr(each, "child_frame_id")]

@@ -12,7 +12,7 @@ from coframe import _core, quaternion
 from coframe._output import html_tables
 from coframe.time import stamp_ns
 from coframe.transform import _covariance, _messages
-from coframe.transform._arguments import checked_points, checked_vectors, normalized, single_pose
+from coframe.transform._arguments import checked_points, checked_vectors, normalize_quaternions, single_pose
 from coframe.transform._constructors import TransformConstructors
 from coframe.transform.values import IDENTITY, any_stamp, arrow, batch_of, broadcast_stamps, derive_transform
 
@@ -86,11 +86,11 @@ class Transform(TransformConstructors):
             self._init_from_message(translation, target, source, stamp, covariance)
             return
         t = checked_vectors(translation, 3, "translation")
-        q = normalized(checked_vectors(quaternion, 4, "quaternion"))
+        q = normalize_quaternions(checked_vectors(quaternion, 4, "quaternion"))
         shape = np.broadcast_shapes(t.shape[:-1], q.shape[:-1])
         uncertainty = None
         if covariance is not None:
-            matrices = _covariance.checked(covariance, shape)
+            matrices = _covariance.check_covariances(covariance, shape)
             matrices.setflags(write=False)
             uncertainty = (matrices, ())
         if not shape:
@@ -287,7 +287,7 @@ class Transform(TransformConstructors):
         if stamp is not _KEEP:
             when = stamp_ns(stamp) if stamp is not None and not shape else stamp
         if covariance is not _KEEP:
-            matrices = None if covariance is None else _covariance.checked(covariance, shape)
+            matrices = None if covariance is None else _covariance.check_covariances(covariance, shape)
         new_target = self.target if target is _KEEP else target
         new_source = self.source if source is _KEEP else source
         exact = self.exact_edges if covariance is _KEEP else ()

@@ -24,19 +24,22 @@ def as_graphviz(forest: Forest, title: str) -> str:
     """Return the file as text: one cluster per tree; edges from other parents and those that close a loop in red."""
     ids = {name: _id(number, name) for number, name in enumerate(forest.frames)}
     head = ["digraph frames {", "  rankdir=LR;", "  node [shape=box, fontname=Helvetica];"]
-    head += ["  edge [fontname=Helvetica, fontsize=10];", f"  label={_quoted([display_name(title), summary(forest)])};"]
+    head += [
+        "  edge [fontname=Helvetica, fontsize=10];",
+        f"  label={_quote_lines([display_name(title), summary(forest)])};",
+    ]
     return "\n".join([*head, *_trees(forest, ids), *_edges(forest, ids), "}", ""])
 
 
 def _trees(forest: Forest, ids: dict[str, str]) -> Iterator[str]:
     for number, tree in enumerate(forest.by_tree()):
         yield f"  subgraph cluster_{number} {{"
-        yield f"    label={_quoted([f'tree of {display_name(tree[0].name)}'])};"
+        yield f"    label={_quote_lines([f'tree of {display_name(tree[0].name)}'])};"
         for name in (frame.name for frame in tree):
             # Without a label Graphviz shows the name, in which it reads backslashes as escapes.
             is_label = display_name(name) == ids[name] and "\\" not in name
-            label = "" if is_label else f" [label={_quoted([display_name(name)])}]"
-            yield f"    {_quoted([ids[name]])}{label};"
+            label = "" if is_label else f" [label={_quote_lines([display_name(name)])}]"
+            yield f"    {_quote_lines([ids[name]])}{label};"
         yield "  }"
 
 
@@ -44,12 +47,12 @@ def _edges(forest: Forest, ids: dict[str, str]) -> Iterator[str]:
     for frame in forest.frames.values():
         if frame.parent:
             style = _style(forest, frame)
-            label = _quoted([*figures(frame), *position_problems(frame)])
-            yield f"  {_quoted([ids[frame.parent]])} -> {_quoted([ids[frame.name]])} [label={label}{style}];"
+            label = _quote_lines([*figures(frame), *position_problems(frame)])
+            yield f"  {_quote_lines([ids[frame.parent]])} -> {_quote_lines([ids[frame.name]])} [label={label}{style}];"
         for parent, edges in _group_by_parent(frame.other_edges).items():
             lines = [line for edge in edges[:_MAX_LISTED] for line in edge_statistics(edge)]
-            ends = f"{_quoted([ids[parent]])} -> {_quoted([ids[frame.name]])}"
-            yield f"  {ends} [label={_quoted(lines)}, color=red, constraint=false];"
+            ends = f"{_quote_lines([ids[parent]])} -> {_quote_lines([ids[frame.name]])}"
+            yield f"  {ends} [label={_quote_lines(lines)}, color=red, constraint=false];"
 
 
 def _style(forest: Forest, frame: Frame) -> str:
@@ -73,5 +76,5 @@ def _id(number: int, name: str) -> str:
     return name if plain else f"#{number}"
 
 
-def _quoted(lines: list[str]) -> str:
+def _quote_lines(lines: list[str]) -> str:
     return '"' + "\\n".join(line.replace("\\", "\\\\").replace('"', '\\"') for line in lines) + '"'

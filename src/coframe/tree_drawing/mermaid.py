@@ -40,9 +40,9 @@ def as_mermaid(forest: Forest, title: str) -> str:
 def _trees(forest: Forest) -> Iterator[str]:
     names = _ids(forest)
     for tree in forest.by_tree():
-        yield f'  subgraph t{names[tree[0].name]}["tree of {_escaped(display_name(tree[0].name))}"]'
+        yield f'  subgraph t{names[tree[0].name]}["tree of {_escape(display_name(tree[0].name))}"]'
         for frame in tree:
-            label = "<br/>".join(map(_escaped, [display_name(frame.name), *figures(frame), *position_problems(frame)]))
+            label = "<br/>".join(map(_escape, [display_name(frame.name), *figures(frame), *position_problems(frame)]))
             yield f'    {names[frame.name]}["{label}"]:::{frame.kind}'
         yield "  end"
 
@@ -66,7 +66,7 @@ def _ids(forest: Forest) -> dict[str, str]:
     return {name: f"f{number}" for number, name in enumerate(forest.frames)}
 
 
-def _escaped(text: str) -> str:
+def _escape(text: str) -> str:
     """Return text with special characters replaced by Mermaid's codes."""
     text = text.replace("\\", "\N{REVERSE SOLIDUS OPERATOR}")  # Mermaid breaks lines at \\n, even if it is escaped
     return "".join(c if c.isalnum() or c in " _/.,:" else f"#{ord(c)};" for c in text)

@@ -7,7 +7,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 import rclpy
-from coframe.nodes.program import initialized, program
+from coframe.nodes.program import initialize_rclpy, program
 from rclpy.executors import ExternalShutdownException
 from rclpy.qos import QoSProfile, ReliabilityPolicy, qos_profile_sensor_data
 
@@ -42,7 +42,7 @@ def _run(name: str, make_node: Callable[[QoSProfile], Node], words: list[str], a
     given = parser.parse_args(arguments)
     profile = QoSProfile(depth=10) if given.reliable else qos_profile_sensor_data
     try:
-        with initialized(words, None):
+        with initialize_rclpy(words, None):
             node = make_node(profile)
             for _ in range(given.number_of_cycles):
                 rclpy.spin_once(node)

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import rclpy
-from coframe.nodes.program import initialized, program
+from coframe.nodes.program import initialize_rclpy, program
 from example_interfaces.srv import AddTwoInts
 
 __all__ = ["main"]
@@ -16,7 +16,7 @@ def main(args: list[str] | None = None) -> None:
 
 
 def _call(words: list[str]) -> None:
-    with initialized(words, None):
+    with initialize_rclpy(words, None):
         node = rclpy.create_node("add_two_ints_client")
         client = node.create_client(AddTwoInts, "add_two_ints")
         while not client.wait_for_service(timeout_sec=1.0):

@@ -65,14 +65,14 @@ def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> list[pytes
     if not manager.has_plugin(_FIXTURES):
         manager.register(_fixtures, _FIXTURES)
     options = options_of(mark, f"{collector.nodeid}::{name}")
-    function = pytest.mark.usefixtures(options.name)(_plain(obj))
+    function = pytest.mark.usefixtures(options.name)(_as_plain_function(obj))
     items = list(collector._genfunctions(name, function))  # noqa: SLF001 - pytest has no public name
     if _is_generator(obj) and not mark.kwargs.get("shutdown", False):
-        return [part for item in items for part in _split(item, options)]
+        return [part for item in items for part in _split_item(item, options)]
     return items
 
 
-def _plain(test: Any) -> Any:
+def _as_plain_function(test: Any) -> Any:
     """Return a function with the signature of a test, because pytest does not accept generators as tests."""
 
     @functools.wraps(test)
@@ -101,7 +101,7 @@ def _is_generator(function: Any) -> bool:
     return inspect.isgeneratorfunction(function) or inspect.isasyncgenfunction(function)
 
 
-def _split(item: pytest.Function, options: LaunchFixture) -> list[pytest.Function]:
+def _split_item(item: pytest.Function, options: LaunchFixture) -> list[pytest.Function]:
     """Return the item, and another one for the part after the shutdown if the launch may have other tests."""
     definitions = _definitions(item, options)
     if not definitions or definitions[-1].scope == "function":
@@ -175,7 +175,7 @@ def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
         launch.finish()
     names = pyfuncitem._fixtureinfo.argnames  # noqa: SLF001 - as pytest calls a function
     arguments = {name: pyfuncitem.funcargs[name] for name in names}
-    rest = _start(_test_of(pyfuncitem), arguments, launch)
+    rest = _start_test(_test_of(pyfuncitem), arguments, launch)
     if getattr(pyfuncitem, "_coframe_is_split", False):
         pyfuncitem._coframe_rest = rest  # type: ignore[attr-defined] # noqa: SLF001
     elif rest is not None:
@@ -184,7 +184,7 @@ def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
     return True
 
 
-def _start(function: Any, arguments: dict[str, Any], launch: RunningLaunch) -> Callable[[], None] | None:
+def _start_test(function: Any, arguments: dict[str, Any], launch: RunningLaunch) -> Callable[[], None] | None:
     """Run a test, or its part before the shutdown; return a function that runs the part after it."""
     if inspect.iscoroutinefunction(function):
         launch.run(function(**arguments))
@@ -192,28 +192,28 @@ def _start(function: Any, arguments: dict[str, Any], launch: RunningLaunch) -> C
     if inspect.isasyncgenfunction(function):
         asynchronous = function(**arguments)
         launch.run(asynchronous.__anext__())
-        return lambda: launch.run(_end_async(asynchronous))
+        return lambda: launch.run(_end_async_test(asynchronous))
     if inspect.isgeneratorfunction(function):
         generator = function(**arguments)
-        launch.run(_in_thread(lambda: next(generator)))
-        return lambda: launch.run(_in_thread(lambda: _end(generator)))
-    launch.run(_in_thread(lambda: function(**arguments)))
+        launch.run(_run_in_thread(lambda: next(generator)))
+        return lambda: launch.run(_run_in_thread(lambda: _end_test(generator)))
+    launch.run(_run_in_thread(lambda: function(**arguments)))
     return None
 
 
-def _end(generator: Any) -> None:
+def _end_test(generator: Any) -> None:
     with contextlib.suppress(StopIteration):
         next(generator)
         pytest.fail("a test of a launch may have only one yield", pytrace=False)
 
 
-async def _end_async(generator: Any) -> None:
+async def _end_async_test(generator: Any) -> None:
     with contextlib.suppress(StopAsyncIteration):
         await generator.__anext__()
         pytest.fail("a test of a launch may have only one yield", pytrace=False)
 
 
-async def _in_thread(function: Callable[[], Any]) -> None:
+async def _run_in_thread(function: Callable[[], Any]) -> None:
     """Run a function in a thread, so that the event loop continues, and raise what it raises."""
     done = asyncio.Event()
     loop = asyncio.get_running_loop()

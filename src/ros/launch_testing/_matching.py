@@ -15,12 +15,12 @@ __all__ = ["build_line_match", "build_text_match", "output_contains", "remove_an
 
 _STREAMS = ("stdout", "stderr")
 
-_ANSI = re.compile(r"\x1b(?:\[[0-?]*[ -/]*[@-~]|[@-Z\\-_])")
+_ANSI_ESCAPE = re.compile(r"\x1b(?:\[[0-?]*[ -/]*[@-~]|[@-Z\\-_])")
 
 
 def remove_ansi_escape_sequences(string: str) -> str:
     """Return a text without colors and other control sequences of terminals."""
-    return _ANSI.sub("", string)
+    return _ANSI_ESCAPE.sub("", string)
 
 
 def build_text_match(expected_text: Any, *, strict: bool = False) -> Callable[[str], tuple[int, int] | None]:
@@ -35,14 +35,14 @@ def build_text_match(expected_text: Any, *, strict: bool = False) -> Callable[[s
         ValueError: `expected_text` has another type.
     """
     if isinstance(expected_text, str):
-        wanted = _normalized(expected_text)
-        return lambda text: _find(wanted, _normalized(text), strict)
+        wanted = _normalize_text(expected_text)
+        return lambda text: _find_patterns(wanted, _normalize_text(text), strict)
     if isinstance(expected_text, re.Pattern):
         search = expected_text.fullmatch if strict else expected_text.search
-        return lambda text: found.span() if (found := search(_normalized(text))) is not None else None
+        return lambda text: found.span() if (found := search(_normalize_text(text))) is not None else None
     if isinstance(expected_text, list | tuple):
         matches = [build_text_match(each) for each in expected_text]
-        return lambda text: _find_in_order(matches, _normalized(text), strict)
+        return lambda text: _find_in_order(matches, _normalize_text(text), strict)
     if callable(expected_text):
         return lambda text: (0, len(text)) if expected_text(text) else None
     raise ValueError(
@@ -109,11 +109,11 @@ def output_contains(
     return False
 
 
-def _normalized(text: str) -> str:
+def _normalize_text(text: str) -> str:
     return text.replace("\r\n", "\n")
 
 
-def _find(wanted: str, text: str, strict: bool) -> tuple[int, int] | None:
+def _find_patterns(wanted: str, text: str, strict: bool) -> tuple[int, int] | None:
     if strict:
         return (0, len(text)) if text == wanted else None
     start = text.find(wanted)

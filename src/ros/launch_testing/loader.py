@@ -111,11 +111,11 @@ class TestRun:
             for name, value in attributes.items():
                 setattr(case, name, value)
             for name in (case._testMethodName, "setUp", "tearDown"):  # noqa: SLF001 - unittest has no public name
-                setattr(case, name, _bound(getattr(case, name), arguments))
+                setattr(case, name, _bind_arguments(getattr(case, name), arguments))
         for test_class in {type(case) for case in _cases(tests)}:
             for name in ("setUpClass", "tearDownClass"):
                 # The class belongs to this run alone.
-                setattr(test_class, name, staticmethod(_bound(getattr(test_class, name), arguments)))
+                setattr(test_class, name, staticmethod(_bind_arguments(getattr(test_class, name), arguments)))
 
 
 def LoadTestsFromPythonModule(module: ModuleType, *, name: str = "launch_tests") -> list[TestRun]:
@@ -131,7 +131,7 @@ def LoadTestsFromPythonModule(module: ModuleType, *, name: str = "launch_tests")
     function = module.generate_test_description
     expand = getattr(function, "__parametrized__", None)
     pairs = expand() if expand is not None else [(function, {})]
-    return [TestRun(name, call, values, *_suites(module, values)) for call, values in pairs]
+    return [TestRun(name, call, values, *_make_suites(module, values)) for call, values in pairs]
 
 
 def find_ready_action(description: Any) -> ReadyToTest | None:
@@ -149,7 +149,7 @@ def find_ready_action(description: Any) -> ReadyToTest | None:
     return None
 
 
-def _suites(module: ModuleType, values: Mapping[str, Any]) -> tuple[unittest.TestSuite, unittest.TestSuite]:
+def _make_suites(module: ModuleType, values: Mapping[str, Any]) -> tuple[unittest.TestSuite, unittest.TestSuite]:
     """Return the tests before and after the shutdown; their classes belong to one run."""
     loader = unittest.TestLoader()
     suites = (unittest.TestSuite(), unittest.TestSuite())
@@ -194,7 +194,7 @@ def _cases(suite: unittest.TestSuite) -> Iterator[unittest.TestCase]:
             yield each
 
 
-def _bound(function: Any, arguments: Mapping[str, Any]) -> Any:
+def _bind_arguments(function: Any, arguments: Mapping[str, Any]) -> Any:
     """Return the function with those of the arguments that it has."""
     names = inspect.signature(function).parameters
     matching = {name: value for name, value in arguments.items() if name in names}

@@ -44,7 +44,7 @@ class TestResult(unittest.TextTestResult):
         self.testTimes |= getattr(results, "testTimes", {})
 
 
-class _WithoutTests(unittest.TestResult):
+class _ResultWithoutTests(unittest.TestResult):
     """A result of a run whose tests have not run."""
 
     def __init__(self, test_run: TestRun, message: str) -> None:
@@ -61,7 +61,7 @@ class _WithoutTests(unittest.TestResult):
         return self._message
 
 
-class FailResult(_WithoutTests):
+class FailResult(_ResultWithoutTests):
     """A failure of all tests of a run.
 
     Args:
@@ -78,7 +78,7 @@ class FailResult(_WithoutTests):
         return False
 
 
-class SkipResult(_WithoutTests):
+class SkipResult(_ResultWithoutTests):
     """A run whose tests are skipped.
 
     Args:

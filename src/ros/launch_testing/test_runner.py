@@ -27,7 +27,7 @@ __all__ = ["LaunchTestRunner"]
 
 _STARTUP_TIMEOUT = 15.0  # seconds until ReadyToTest
 _END_OF_TESTS = 1.0  # seconds in which a test that was waiting may notice the end of the launch
-_RULE = "#" * 30
+_SEPARATOR = "#" * 30
 
 
 class LaunchTestRunner:
@@ -108,7 +108,7 @@ class _Worker:
         if self._error is not None:
             raise self._error
         if self._result is None or not is_ready:
-            return self._failed("Processes under test stopped before tests completed")
+            return self._failed_launch("Processes under test stopped before tests completed")
         self._run_tests_after_shutdown(shared)
         return self._result
 
@@ -153,7 +153,7 @@ class _Worker:
         )
         self._result.append(_run_suite(self._test_run.post_shutdown_tests))
 
-    def _failed(self, message: str) -> FailResult:
+    def _failed_launch(self, message: str) -> FailResult:
         """Return the failure of a launch that has ended too early, and print what its processes wrote."""
         print(f"\n{message}", file=sys.stderr)
         for event in self._proc_info:
@@ -162,7 +162,7 @@ class _Worker:
             print(f"Process '{event.process_name}' {state}", file=sys.stderr)
         for name in self._proc_output.process_names():
             text = b"".join(each.text for each in self._proc_output[name]).decode(errors="replace")
-            print(f"##### '{name}' output #####\n{text}\n{_RULE}", file=sys.stderr)
+            print(f"##### '{name}' output #####\n{text}\n{_SEPARATOR}", file=sys.stderr)
         return FailResult(self._test_run, message)
 
 

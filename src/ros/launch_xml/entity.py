@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend import Entity as BaseEntity
-from launch.frontend.entity import is_list_of_entities, missing
+from launch.frontend.entity import is_list_of_entities, missing_attribute_error
 from launch.utilities.type_utils import get_typed_value, is_typing_list
 
 if TYPE_CHECKING:
@@ -60,12 +60,12 @@ class Entity(BaseEntity):
             found = [Entity(child, parent=self) for child in self.__element if child.tag == name]
             self.__read_children.add(name)
             if not found and not optional:
-                raise missing(name, self.type_name, (child.tag for child in self.__element))
+                raise missing_attribute_error(name, self.type_name, (child.tag for child in self.__element))
             return found or None
         if name not in self.__element.attrib:
             if optional:
                 return None
-            raise missing(name, self.type_name, self.__element.attrib)
+            raise missing_attribute_error(name, self.type_name, self.__element.attrib)
         self.__read_attributes.add(name)
         value: Any = self.__element.attrib[name]
         separator = self.__element.attrib.get(f"{name}-sep")

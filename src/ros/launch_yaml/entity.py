@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from launch.frontend import Entity as BaseEntity
-from launch.frontend.entity import is_list_of_entities, missing
+from launch.frontend.entity import is_list_of_entities, missing_attribute_error
 from launch.utilities.type_utils import get_typed_value, is_instance_of
 
 __all__ = ["Entity"]
@@ -68,7 +68,9 @@ class Entity(BaseEntity):
         if not isinstance(self.__element, dict) or name not in self.__element:
             if optional:
                 return None
-            raise missing(name, self.type_name, self.__element if isinstance(self.__element, dict) else ())
+            raise missing_attribute_error(
+                name, self.type_name, self.__element if isinstance(self.__element, dict) else ()
+            )
         self.__read_keys.add(name)
         value = self.__element[name]
         if is_list_of_entities(data_type):

@@ -53,7 +53,7 @@ def generate_rsp_launch(moveit_config: MoveItConfigs) -> LaunchDescription:
 
 def generate_moveit_rviz_launch(moveit_config: MoveItConfigs) -> LaunchDescription:
     """Return the launch description of RViz."""
-    config = _package(moveit_config) / "config" / "moveit.rviz"
+    config = _find_package(moveit_config) / "config" / "moveit.rviz"
     description = LaunchDescription(
         [DeclareBooleanLaunchArg("debug"), DeclareLaunchArgument("rviz_config", default_value=str(config))]
     )
@@ -121,7 +121,7 @@ def generate_spawn_controllers_launch(moveit_config: MoveItConfigs) -> LaunchDes
 
 def generate_warehouse_db_launch(moveit_config: MoveItConfigs) -> LaunchDescription:
     """Return the launch description of the database of planning scenes."""
-    path = _package(moveit_config) / "default_warehouse_mongo_db"
+    path = _find_package(moveit_config) / "default_warehouse_mongo_db"
     parameters = {
         "overwrite": False,
         "database_path": LaunchConfiguration("moveit_warehouse_database_path"),
@@ -176,7 +176,7 @@ def generate_move_group_launch(moveit_config: MoveItConfigs) -> LaunchDescriptio
         description,
         package="moveit_ros_move_group",
         executable="move_group",
-        commands_file=str(_package(moveit_config) / "launch" / "gdb_settings.gdb"),
+        commands_file=str(_find_package(moveit_config) / "launch" / "gdb_settings.gdb"),
         output="screen",
         parameters=[moveit_config.to_dict(), parameters],
         extra_debug_args=["--debug"],
@@ -191,41 +191,41 @@ def generate_demo_launch(moveit_config: MoveItConfigs, launch_package_path: Any 
         moveit_config: The parameters.
         launch_package_path: Folder of the package with the launch files; that of the parameters by default.
     """
-    package = Path(launch_package_path) if launch_package_path else _package(moveit_config)
+    package = Path(launch_package_path) if launch_package_path else _find_package(moveit_config)
     return LaunchDescription(
         [
             DeclareBooleanLaunchArg("db", default_value=False, description="whether to start the database"),
             DeclareBooleanLaunchArg("debug", default_value=False, description="whether nodes run in a debugger"),
             DeclareBooleanLaunchArg("use_rviz", default_value=True),
             *(
-                [_included(package, "static_virtual_joint_tfs")]
-                if _file(package, "static_virtual_joint_tfs").exists()
+                [_include_launch_file(package, "static_virtual_joint_tfs")]
+                if _find_file(package, "static_virtual_joint_tfs").exists()
                 else []
             ),
-            _included(package, "rsp"),
-            _included(package, "move_group"),
-            _included(package, "moveit_rviz", condition=IfCondition(LaunchConfiguration("use_rviz"))),
-            _included(package, "warehouse_db", condition=IfCondition(LaunchConfiguration("db"))),
+            _include_launch_file(package, "rsp"),
+            _include_launch_file(package, "move_group"),
+            _include_launch_file(package, "moveit_rviz", condition=IfCondition(LaunchConfiguration("use_rviz"))),
+            _include_launch_file(package, "warehouse_db", condition=IfCondition(LaunchConfiguration("db"))),
             Node(
                 package="controller_manager",
                 executable="ros2_control_node",
                 parameters=[
                     moveit_config.robot_description,
-                    str(_package(moveit_config) / "config" / "ros2_controllers.yaml"),
+                    str(_find_package(moveit_config) / "config" / "ros2_controllers.yaml"),
                 ],
             ),
-            _included(package, "spawn_controllers"),
+            _include_launch_file(package, "spawn_controllers"),
         ]
     )
 
 
-def _package(moveit_config: MoveItConfigs) -> Path:
+def _find_package(moveit_config: MoveItConfigs) -> Path:
     return Path(moveit_config.package_path or ".")
 
 
-def _file(package: Path, name: str) -> Path:
+def _find_file(package: Path, name: str) -> Path:
     return package / "launch" / f"{name}.launch.py"
 
 
-def _included(package: Path, name: str, **options: Any) -> IncludeLaunchDescription:
-    return IncludeLaunchDescription(PythonLaunchDescriptionSource(str(_file(package, name))), **options)
+def _include_launch_file(package: Path, name: str, **options: Any) -> IncludeLaunchDescription:
+    return IncludeLaunchDescription(PythonLaunchDescriptionSource(str(_find_file(package, name))), **options)

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 __all__ = ["MoveItConfigs", "MoveItConfigsBuilder", "get_pattern_matches"]
 
 _DEFAULTS: Final = Path(__file__).with_name("default_configs")
-_CONFIG: Final = Path("config")
-_PILZ: Final = "pilz_industrial_motion_planner"
+_CONFIG_FOLDER: Final = Path("config")
+_PILZ_FILE: Final = "pilz_industrial_motion_planner"
 
 
 @dataclass
@@ -104,7 +104,7 @@ class MoveItConfigsBuilder(ParameterBuilder):
         self.__urdf: Path | None = None
         self.__urdf_mappings: dict[str, str] = {}
         self.__srdf: Path | None = None
-        expanded = self._package_path / _CONFIG / f"{robot_name}.urdf.xacro"
+        expanded = self._package_path / _CONFIG_FOLDER / f"{robot_name}.urdf.xacro"
         if expanded.exists():
             self.__urdf = expanded
         self.__read_setup_assistant(self._package_path / ".setup_assistant")
@@ -126,12 +126,12 @@ class MoveItConfigsBuilder(ParameterBuilder):
             self.__srdf = self._package_path / srdf["relative_path"]
 
     def __guess(self, kind: str, suffix: str) -> Path:
-        path = _CONFIG / f"{self.__robot_name}.{suffix}"
+        path = _CONFIG_FOLDER / f"{self.__robot_name}.{suffix}"
         _warn(f"Cannot infer {kind} from `{self._package_path}`. -- using {path.as_posix()}")
         return self._package_path / path
 
     def __path(self, file_path: str | None, default: str) -> Path:
-        return self._package_path / (_CONFIG / default if file_path is None else file_path)
+        return self._package_path / (_CONFIG_FOLDER / default if file_path is None else file_path)
 
     def robot_description(
         self, file_path: str | None = None, mappings: Mapping[Any, Any] | None = None
@@ -218,7 +218,7 @@ class MoveItConfigsBuilder(ParameterBuilder):
         return self
 
     def __controllers_file(self) -> Path | None:
-        folder = self._package_path / _CONFIG
+        folder = self._package_path / _CONFIG_FOLDER
         names = get_pattern_matches(folder, "_controllers.yaml")
         if not names:
             _warn(
@@ -286,7 +286,7 @@ class MoveItConfigsBuilder(ParameterBuilder):
         Raises:
             RuntimeError: `default_planning_pipeline` is not one of the planners.
         """
-        folder = self._package_path / _CONFIG
+        folder = self._package_path / _CONFIG_FOLDER
         names = list(get_pattern_matches(folder, "_planning.yaml") if pipelines is None else pipelines)
         if pipelines is None and load_all:
             names += [name for name in get_pattern_matches(_DEFAULTS, "_planning.yaml") if name not in names]
@@ -330,7 +330,7 @@ class MoveItConfigsBuilder(ParameterBuilder):
         ):
             if not getattr(configs, name):
                 getattr(self, name)()
-        if _PILZ in configs.planning_pipelines and not configs.pilz_cartesian_limits:
+        if _PILZ_FILE in configs.planning_pipelines and not configs.pilz_cartesian_limits:
             self.pilz_cartesian_limits()
         return configs
 

@@ -277,7 +277,7 @@ class BasicNavigator(Node):
     def _send(self, client: ActionClient, goal: Any, rejected: str) -> bool:
         """Send the goal of a task; `isTaskComplete` waits for its end."""
         self.feedback = None
-        handle = self._accepted(client, goal, self._feedbackCallback)
+        handle = self._send_goal(client, goal, self._feedbackCallback)
         self.goal_handle = handle
         if not handle.accepted:
             self.error(rejected)
@@ -287,7 +287,7 @@ class BasicNavigator(Node):
 
     def _result(self, client: ActionClient, goal: Any, rejected: str, what: str) -> Any:
         """Send a goal and return its result, or None if it failed."""
-        handle = self._accepted(client, goal, None)
+        handle = self._send_goal(client, goal, None)
         self.goal_handle = handle
         if not handle.accepted:
             self.error(rejected)
@@ -300,7 +300,7 @@ class BasicNavigator(Node):
             return None
         return self.result_future.result().result
 
-    def _accepted(self, client: ActionClient, goal: Any, feedback: Any) -> Any:
+    def _send_goal(self, client: ActionClient, goal: Any, feedback: Any) -> Any:
         self.debug("Waiting for an action server")
         while not client.wait_for_server(timeout_sec=1.0):
             self.info(f"'{client._action_name.lstrip('/')}' action server not available, waiting...")  # noqa: SLF001

@@ -300,7 +300,7 @@ def spin(node: Node, executor: Executor | None = None) -> None:
         node: Node to spin.
         executor: Executor to use. None: the global executor.
     """
-    with _added(node, executor) as added:
+    with _add_temporarily(node, executor) as added:
         added.spin()
 
 
@@ -315,7 +315,7 @@ def spin_once(node: Node, *, executor: Executor | None = None, timeout_sec: floa
     Raises:
         ExternalShutdownException: The context was shut down.
     """
-    with _added(node, executor) as added:
+    with _add_temporarily(node, executor) as added:
         added.spin_once(timeout_sec=timeout_sec)
 
 
@@ -336,12 +336,12 @@ def spin_until_future_complete(
     Raises:
         ExternalShutdownException: The context was shut down.
     """
-    with _added(node, executor) as added:
+    with _add_temporarily(node, executor) as added:
         added.spin_until_future_complete(future, timeout_sec)
 
 
 @contextmanager
-def _added(node: Node, executor: Executor | None) -> Iterator[Executor]:
+def _add_temporarily(node: Node, executor: Executor | None) -> Iterator[Executor]:
     """Add a node to an executor for a while, and give it back to the executor that it belonged to."""
     executor = executor or get_global_executor()
     previous = node.executor

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from rclpy.node import Node
     from rclpy.parameter import Parameter
 
-__all__ = ["ComposedOptions", "composed", "take_options"]
+__all__ = ["ComposedOptions", "apply_options", "take_options"]
 
 
 class ComposedOptions(NamedTuple):
@@ -41,7 +41,7 @@ _pending: ContextVar[_Pending | None] = ContextVar("_pending", default=None)
 
 
 @contextlib.contextmanager
-def composed(cls: type, options: ComposedOptions) -> Iterator[None]:
+def apply_options(cls: type, options: ComposedOptions) -> Iterator[None]:
     """Apply options to the first node of a class that is created in this context.
 
     If the context raises an exception, the node is destroyed: its constructor has failed.

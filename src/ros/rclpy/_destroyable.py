@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-__all__ = ["Destroyable", "LoggingEntity", "destroyed"]
+__all__ = ["Destroyable", "LoggingEntity", "destroyed_error"]
 
 
 class Destroyable:
@@ -45,7 +45,7 @@ class LoggingEntity(Destroyable):
         return self._Coframe__logger_name
 
 
-def destroyed(what: str) -> InvalidHandle:
+def destroyed_error(what: str) -> InvalidHandle:
     """Return the error of using a destroyed entity, which has upstream's text and names the entity in its hint.
 
     Args:

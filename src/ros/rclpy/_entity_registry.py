@@ -9,7 +9,7 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from rclpy._destroyable import LoggingEntity, destroyed
+from rclpy._destroyable import LoggingEntity, destroyed_error
 from rclpy.callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
 from rclpy.client import Client
 from rclpy.exceptions import RCLError, _with_hint
@@ -61,7 +61,7 @@ class EntityRegistry:
     def check_not_destroyed(self) -> None:
         """Raise an error if the node was destroyed."""
         if self.is_destroyed:
-            raise destroyed(f"The node {self._node_name}")
+            raise destroyed_error(f"The node {self._node_name}")
 
     def check_usable(self, entity: str) -> None:
         """Check that an entity can be created: the node exists, and its context was not shut down."""

@@ -19,7 +19,7 @@ from coframe.wire import request_header
 from coframe.wire.request_header import RequestHeader
 from coframe.wire.service_endpoints import RejectedRequestError
 from rclpy._absent import Handle
-from rclpy._destroyable import LoggingEntity, destroyed
+from rclpy._destroyable import LoggingEntity, destroyed_error
 from rclpy.constants import S_TO_NS
 from rclpy.service_introspection import REQUEST_SENT, RESPONSE_RECEIVED
 from rclpy.task import Future
@@ -124,7 +124,7 @@ class Client(LoggingEntity):
         """
         if not isinstance(request, self.srv_type.Request):
             raise TypeError(f"Expected {self.srv_type.Request}, got {type(request)}")
-        return self._Coframe__send(request, _unchanged)
+        return self._Coframe__send(request, _return_unchanged)
 
     def _Coframe__send(self, request: Any, convert: Callable[[Any], Any]) -> Future[Any]:
         """Send a request and return a future whose result is `convert(response)`."""
@@ -208,7 +208,7 @@ class Client(LoggingEntity):
 
     def __require_replies(self) -> ServiceSubscription:
         if self.__replies is None:
-            raise destroyed(f"The client of '{self.service_name}'")
+            raise destroyed_error(f"The client of '{self.service_name}'")
         return self.__replies
 
     def _Coframe__remaining_ns(self) -> int | None:
@@ -318,5 +318,5 @@ def _deadline(timeout_sec: float | None) -> int | None:
     return None if timeout_sec is None else time.monotonic_ns() + int(timeout_sec * S_TO_NS)
 
 
-def _unchanged(response: Any) -> Any:
+def _return_unchanged(response: Any) -> Any:
     return response

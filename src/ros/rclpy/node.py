@@ -15,7 +15,7 @@ from rcl_interfaces.msg import ParameterEvent
 from rclpy import _arguments, _composition, _node_endpoints
 from rclpy._absent import Handle
 from rclpy._arguments import Arguments
-from rclpy._destroyable import destroyed
+from rclpy._destroyable import destroyed_error
 from rclpy._entity_registry import EntityRegistry, check_callback
 from rclpy._node_parameters import NodeParameters
 from rclpy._remapping import NameResolver, remap_node
@@ -83,7 +83,7 @@ class Node(_node_endpoints.Node):
 
     handle = Handle()
     _Coframe__clock_class: type[ROSClock] = ROSClock
-    _Coframe__composed = staticmethod(_composition.composed)
+    _Coframe__composed = staticmethod(_composition.apply_options)
     _Coframe__composed_options = _composition.ComposedOptions
 
     def __init__(
@@ -205,7 +205,7 @@ class Node(_node_endpoints.Node):
 
     def __check_exists(self) -> None:
         if self._Coframe__entities.is_destroyed:
-            raise destroyed(f"The node {self._Coframe__names.full_name}")
+            raise destroyed_error(f"The node {self._Coframe__names.full_name}")
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
         """Return the fully qualified name of a topic, remapped unless `only_expand` is set.

@@ -12,7 +12,7 @@ from coframe.errors import WireError
 from coframe.messages import codec
 from coframe.messages.native_codec import native_codec
 from rclpy._absent import Handle
-from rclpy._destroyable import LoggingEntity, destroyed
+from rclpy._destroyable import LoggingEntity, destroyed_error
 from rclpy.duration import Duration, Infinite
 from rclpy.exceptions import RCLError
 
@@ -128,7 +128,7 @@ class Publisher(LoggingEntity):
 
     def __require_wire(self) -> WirePublisher | StaticBroadcaster:
         if self.__wire is None:
-            raise destroyed(f"The publisher of '{self.topic_name}'")
+            raise destroyed_error(f"The publisher of '{self.topic_name}'")
         return self.__wire
 
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from coframe._core import Event
 from rclpy._absent import Handle
 from rclpy._clock_type import ClockType
-from rclpy._destroyable import Destroyable, destroyed
+from rclpy._destroyable import Destroyable, destroyed_error
 from rclpy._interruption import Interruption
 from rclpy.exceptions import RCLError, ROSInterruptException
 from rclpy.time import Time
@@ -174,7 +174,7 @@ class Timer(Destroyable):
 
     def __check_not_destroyed(self) -> None:
         if self._Coframe__destruction.is_set:
-            raise destroyed("The timer")
+            raise destroyed_error("The timer")
 
     def _Coframe__until_next_ns(self) -> int:
         """Return the nanoseconds until the next call, even if the timer is cancelled."""

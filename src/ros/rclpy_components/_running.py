@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.nodes.program import initialized
+from coframe.nodes.program import initialize_rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy_components.component_manager import ComponentManager
 
@@ -25,7 +25,7 @@ def run_container(make_executor: Callable[[], Executor], args: list[str]) -> Non
         args: Command line with ``--ros-args``.
     """
     try:
-        with initialized(args, None):
+        with initialize_rclpy(args, None):
             executor = make_executor()
             ComponentManager.in_executor(executor)
             executor.spin()

@@ -7,7 +7,7 @@ import contextlib
 import threading
 from typing import TYPE_CHECKING
 
-from coframe.nodes.program import initialized, program
+from coframe.nodes.program import initialize_rclpy, program
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy_components.component_manager import ComponentManager
 
@@ -60,7 +60,7 @@ def _run(words: list[str], arguments: list[str]) -> None:
     is_multi_threaded = "--use_multi_threaded_executor" in arguments
     threads = _Threads(MultiThreadedExecutor if is_multi_threaded else SingleThreadedExecutor)
     try:
-        with initialized(words, None):
+        with initialize_rclpy(words, None):
             executor = SingleThreadedExecutor()
             executor.add_node(ComponentManager(add_node=threads.start, remove_node=threads.stop))
             executor.spin()

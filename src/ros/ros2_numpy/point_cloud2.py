@@ -207,7 +207,7 @@ def dict_to_point_cloud2(point_cloud_dict: Mapping[str, Array], frame_id: str = 
     columns: dict[str, Array] = dict(zip(_XYZ, xyz.T.astype(np.float32), strict=True))
     for name, values in point_cloud_dict.items():
         if name == "rgb" and np.ndim(values) == 2 and np.shape(values)[1] >= 3:
-            columns[name] = _packed(*np.asarray(values).T[:3])
+            columns[name] = _pack_colors(*np.asarray(values).T[:3])
         elif name != "xyz":
             column = np.asarray(values).reshape(len(values), -1)[:, 0]
             columns[name] = column.astype(np.float32) if column.dtype.kind == "f" else column
@@ -258,10 +258,10 @@ def merge_rgb_fields(cloud_arr: Array) -> Array:
     result = np.empty(points.shape, [*kept, ("rgb", np.float32)])
     for name, _ in kept:
         result[name] = points[name]
-    result["rgb"] = _packed(points["r"], points["g"], points["b"]).view(np.float32)
+    result["rgb"] = _pack_colors(points["r"], points["g"], points["b"]).view(np.float32)
     return result
 
 
-def _packed(red: Array, green: Array, blue: Array) -> NDArray[np.uint32]:
+def _pack_colors(red: Array, green: Array, blue: Array) -> NDArray[np.uint32]:
     r, g, b = (np.asarray(color, np.uint32) for color in (red, green, blue))
     return np.asarray((r << np.uint32(16)) | (g << np.uint32(8)) | b, np.uint32)

@@ -61,12 +61,12 @@ def message_to_csv(msg: Any, *, truncate_length: int | None = None, no_arr: bool
         if isinstance(value, _SEQUENCES):
             described = no_arr and type_ is not None
             more = ["..."] if truncate_length is not None and len(value) > truncate_length else []
-            return _describe(value, type_) if described else _joined([*map(text, value[:truncate_length]), *more])
+            return _describe(value, type_) if described else _join_values([*map(text, value[:truncate_length]), *more])
         if isinstance(value, (str, bytes)):
             if no_str:
                 return _described_string(value)
             if isinstance(value, str):
-                return _shortened(value, truncate_length)
+                return _truncate(value, truncate_length)
             long = truncate_length is not None and len(value) > truncate_length
             return str(value[:truncate_length] + b"..." if long else value)
         if isinstance(value, (bool, int, float, np.number)):
@@ -74,7 +74,7 @@ def message_to_csv(msg: Any, *, truncate_length: int | None = None, no_arr: bool
         return message_to_csv(value, truncate_length=truncate_length, no_arr=no_arr, no_str=no_str)
 
     slots = zip(msg.__slots__, msg.SLOT_TYPES, strict=False)
-    return _joined([text(getattr(msg, slot), type_) for slot, type_ in slots])
+    return _join_values([text(getattr(msg, slot), type_) for slot, type_ in slots])
 
 
 def message_to_ordereddict(
@@ -105,9 +105,9 @@ def _as_plain_value(
     """Return a value of a field as YAML can represent it."""
     options: dict[str, Any] = {"truncate_length": truncate_length, "no_arr": no_arr, "no_str": no_str}
     if isinstance(value, bytes):
-        return _shortened("".join(map(chr, value)), truncate_length)
+        return _truncate("".join(map(chr, value)), truncate_length)
     if isinstance(value, str):
-        return _described_string(value) if no_str else _shortened(value, truncate_length)
+        return _described_string(value) if no_str else _truncate(value, truncate_length)
     if isinstance(value, _SEQUENCES):
         return _describe(value, type_) if no_arr and type_ is not None else _items(value, options)
     if isinstance(value, (bool, int, float, np.generic)):
@@ -123,11 +123,11 @@ def _items(sequence: Any, options: dict[str, Any]) -> list[Any]:
     return items if limit is None or len(sequence) <= limit else [*items, "..."]
 
 
-def _shortened(text: str, limit: int | None) -> str:
+def _truncate(text: str, limit: int | None) -> str:
     return text if limit is None or len(text) <= limit else f"{text[:limit]}..."
 
 
-def _joined(values: list[str]) -> str:
+def _join_values(values: list[str]) -> str:
     """Join values with commas as ROS does, which writes no comma after values that are empty and come first."""
     first = next((index for index, value in enumerate(values) if value), len(values))
     return ",".join(values[first:])

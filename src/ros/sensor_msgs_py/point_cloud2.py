@@ -149,7 +149,7 @@ def create_cloud(
         point_step: Size of a point in bytes, if there should be padding after the last field.
     """
     fields = list(fields)
-    structured = np.ascontiguousarray(_structured(fields, points, point_step))
+    structured = np.ascontiguousarray(_to_structured(fields, points, point_step))
     assert structured.ndim <= 2, (
         "Too many dimensions for organized cloud! Points can only be organized in max. two dimensional space"
     )
@@ -203,7 +203,7 @@ def _without_garbage(points: NDArray[Any]) -> NDArray[Any]:
     return clean
 
 
-def _structured(fields: list[PointField], points: Any, point_step: int | None) -> NDArray[Any]:
+def _to_structured(fields: list[PointField], points: Any, point_step: int | None) -> NDArray[Any]:
     dtype = dtype_from_fields(fields, point_step)
     if not isinstance(points, np.ndarray):
         return _without_garbage(np.array([tuple(point) for point in points], dtype=dtype))

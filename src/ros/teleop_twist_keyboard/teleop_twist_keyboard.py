@@ -8,7 +8,7 @@ from typing import Any
 
 import rclpy
 from coframe._process.keys import keys
-from coframe.nodes.program import initialized, program
+from coframe.nodes.program import initialize_rclpy, program
 from geometry_msgs.msg import Twist, TwistStamped
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -122,7 +122,7 @@ def _run(words: list[str], _arguments: list[str]) -> None:
     if not sys.stdin.isatty():
         sys.exit("teleop_twist_keyboard: the keys are read from a terminal, but the standard input is not one")
     node = None
-    with initialized(words, None), keys() as pressed:
+    with initialize_rclpy(words, None), keys() as pressed:
         try:
             node = TeleopTwistKeyboard()
             print(f"{_INSTRUCTIONS}\n{node.speeds}")  # noqa: T201 - the program's own output

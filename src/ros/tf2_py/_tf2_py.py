@@ -19,7 +19,7 @@ from rclpy.duration import Duration
 from rclpy.time import Time
 from tf2_py import _convert
 from tf2_py._message import any_time, transform_stamped
-from tf2_py._velocity import Tracked, Vector, lookup_velocity
+from tf2_py._velocity import TrackedPoint, Vector, lookup_velocity
 
 __all__ = [
     "BufferCore",
@@ -170,7 +170,7 @@ class BufferCore:
         tracking, observation = _convert.text(tracking_frame, 1), _convert.text(observation_frame, 2)
         return lookup_velocity(
             self._Coframe__buffer,
-            Tracked(tracking, (0.0, 0.0, 0.0), tracking),
+            TrackedPoint(tracking, (0.0, 0.0, 0.0), tracking),
             observation,
             observation,
             stamp=_convert.nanoseconds(time, "time"),
@@ -193,7 +193,7 @@ class BufferCore:
         point = (float(x), float(y), float(z))
         return lookup_velocity(
             self._Coframe__buffer,
-            Tracked(_convert.text(tracking_frame, 1), point, _convert.text(reference_point_frame, 5)),
+            TrackedPoint(_convert.text(tracking_frame, 1), point, _convert.text(reference_point_frame, 5)),
             _convert.text(observation_frame, 2),
             _convert.text(reference_frame, 3),
             stamp=_convert.nanoseconds(time, "time"),

@@ -17,7 +17,7 @@ Vector = tuple[float, float, float]
 _EARLIEST_START = 10_000
 
 
-class Tracked(NamedTuple):
+class TrackedPoint(NamedTuple):
     """A moving frame, and the point whose velocity is computed, expressed in `point_frame`."""
 
     frame: str
@@ -26,7 +26,7 @@ class Tracked(NamedTuple):
 
 
 def lookup_velocity(
-    core: Buffer, tracked: Tracked, observation: str, reference: str, *, stamp: int, interval: int
+    core: Buffer, tracked: TrackedPoint, observation: str, reference: str, *, stamp: int, interval: int
 ) -> tuple[Vector, Vector]:
     """Return the linear (m/s) and angular (rad/s) velocity of a tracked point relative to `observation`.
 

@@ -8,7 +8,7 @@ from coframe._core import Renaming
 from geometry_msgs.msg import TransformStamped
 
 
-def renamed(transforms: Iterable[TransformStamped], renaming: Renaming | None) -> list[TransformStamped]:
+def rename_transforms(transforms: Iterable[TransformStamped], renaming: Renaming | None) -> list[TransformStamped]:
     """Return the transforms with renamed frames. The given transforms are not modified."""
     return list(transforms) if renaming is None else [_rename(transform, renaming) for transform in transforms]
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The subscriptions of a listener with COFRAME_SHARED=1, as entities of coframe's rclpy."""
 
-# ruff: noqa: SLF001 - Sharing requires private members of rclpy's nodes and tf2's buffers.
+# ruff: noqa: SLF001 - TransformSharing requires private members of rclpy's nodes and tf2's buffers.
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from coframe._core import Event
-    from tf2_ros._sharing import Sharing
+    from tf2_ros._sharing import TransformSharing
     from tf2_ros._subscriptions import Request, Topic
 
 
@@ -30,7 +30,7 @@ class SharedSubscriptions:
         static: The subscription to static transforms.
     """
 
-    def __init__(self, request: Request, sharing: Sharing) -> None:
+    def __init__(self, request: Request, sharing: TransformSharing) -> None:
         """Create the entities.
 
         Args:
@@ -122,7 +122,7 @@ class _SharedArrivals:
     def arm(self) -> None:
         if self._cancel is None:
             start = lambda mailbox, token: watch(self._buffer, mailbox, token, "")  # noqa: E731 - one expression
-            self._cancel = self._buffer._dispatcher.watch(start, self._arrived)
+            self._cancel = self._buffer._dispatcher.watch(start, self._on_arrival)
 
     def take_one(self) -> bool:
         count = self._count()
@@ -132,7 +132,7 @@ class _SharedArrivals:
         self._handled += 1
         return True
 
-    def _arrived(self, changed: list[str]) -> None:
+    def _on_arrival(self, changed: list[str]) -> None:
         del changed
         cancel, self._cancel = self._cancel, None
         if cancel is not None:

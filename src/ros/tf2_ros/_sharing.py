@@ -29,7 +29,7 @@ _logger = logging.getLogger("coframe.wire")
 _warn_once = WarnOnce(_logger.warning)
 
 
-def share(request: Request) -> Sharing | None:
+def share(request: Request) -> TransformSharing | None:
     """Let the buffer of a listener read the shared transforms, and return its share.
 
     Args:
@@ -52,7 +52,7 @@ def share(request: Request) -> Sharing | None:
     if not shared.follow(buffer, AUTHORITY):
         shared.leave()
         return None
-    return Sharing(buffer, shared, (dynamic, static))
+    return TransformSharing(buffer, shared, (dynamic, static))
 
 
 def is_shareable(request: Request) -> bool:
@@ -77,7 +77,7 @@ def _is_enabled() -> bool:
     return value == "1"
 
 
-class Sharing:
+class TransformSharing:
     """The share of one listener in the shared transforms.
 
     Attributes:

@@ -17,7 +17,7 @@ from tf2_ros._subscriptions import AUTHORITY, Request, Topic
 if TYPE_CHECKING:
     from coframe.wire.endpoints import GraphNode
     from coframe.wire.tf_reader import TfReader
-    from tf2_ros._sharing import Sharing
+    from tf2_ros._sharing import TransformSharing
 
 
 class SourcedNativeSubscriptions:
@@ -63,7 +63,7 @@ def _read(request: Request, topic: Topic, participant: Participant, hidden: Grap
 class SourcedSharedSubscriptions:
     """The buffer reads the shared transforms, until the node ends or the program changes the buffer."""
 
-    def __init__(self, request: Request, sharing: Sharing) -> None:
+    def __init__(self, request: Request, sharing: TransformSharing) -> None:
         # No reference to the node is kept, because it could never be garbage-collected.
         self._sharing = sharing
         self._own: SourcedNativeSubscriptions | None = None

@@ -173,12 +173,12 @@ class BufferClient(BufferInterface):
     def __process(self, goal: LookupTransform.Goal) -> TransformStamped:
         deadline = self.__deadline(goal)
         goal_handle = self.__wait_for(self.action_client.send_goal_async(goal), deadline)
-        return _transform_in(self.__wait_for(_accepted(goal_handle).get_result_async(), deadline))
+        return _transform_in(self.__wait_for(_check_accepted(goal_handle).get_result_async(), deadline))
 
     async def __process_async(self, goal: LookupTransform.Goal) -> TransformStamped:
         deadline = self.__deadline(goal)
         goal_handle = await self.__within(self.action_client.send_goal_async(goal), deadline)
-        return _transform_in(await self.__within(_accepted(goal_handle).get_result_async(), deadline))
+        return _transform_in(await self.__within(_check_accepted(goal_handle).get_result_async(), deadline))
 
     def __deadline(self, goal: LookupTransform.Goal) -> float:
         if not self.action_client.server_is_ready():
@@ -255,7 +255,7 @@ def _time_out(future: "Future[Any]") -> None:
         future.set_exception(TimeoutException(f"{text} {_SUSPICION}"))
 
 
-def _accepted(goal_handle: ClientGoalHandle) -> ClientGoalHandle:
+def _check_accepted(goal_handle: ClientGoalHandle) -> ClientGoalHandle:
     if not goal_handle.accepted:
         text = "The LookupTransform goal sent to the BufferServer did not come back with accepted status."
         raise TimeoutException(f"{text} {_SUSPICION}")

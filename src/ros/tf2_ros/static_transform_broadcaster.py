@@ -11,7 +11,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
 from tf2_msgs.msg import TFMessage
 from tf2_ros._rclpy_side import profile, static_publisher
-from tf2_ros._renaming import renamed
+from tf2_ros._renaming import rename_transforms
 from tf2_ros.transform_broadcaster import as_list
 
 DEFAULT_STATIC_TF_TOPIC = "/tf_static"
@@ -64,7 +64,7 @@ class StaticTransformBroadcaster:
         """Publish transforms together with all earlier ones. A new transform replaces the one with the same child."""
         transforms = {known.child_frame_id: known for known in self.net_message.transforms}
         # The messages are copied, because callers reuse them for their next transform.
-        added = TFMessage(transforms=renamed(as_list(transform), self.__renaming)).transforms
+        added = TFMessage(transforms=rename_transforms(as_list(transform), self.__renaming)).transforms
         transforms.update((new.child_frame_id, deepcopy(new)) for new in added)
         self.net_message.transforms = list(transforms.values())
         self._child_frame_ids = set(transforms)

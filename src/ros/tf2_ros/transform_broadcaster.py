@@ -10,7 +10,7 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from tf2_msgs.msg import TFMessage
 from tf2_ros._rclpy_side import direct_sender
-from tf2_ros._renaming import renamed
+from tf2_ros._renaming import rename_transforms
 
 DEFAULT_TF_TOPIC = "/tf"
 
@@ -51,7 +51,7 @@ class TransformBroadcaster:
         if self.__renaming is None and self.pub_tf.publish == self.__publish and self.__send(transform):
             return
         message = TFMessage()
-        message.transforms = renamed(as_list(transform), self.__renaming)
+        message.transforms = rename_transforms(as_list(transform), self.__renaming)
         self.pub_tf.publish(message)
 
 

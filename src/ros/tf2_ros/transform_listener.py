@@ -14,7 +14,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
 from tf2_msgs.msg import TFMessage
 from tf2_ros._rclpy_side import profile
-from tf2_ros._renaming import renamed
+from tf2_ros._renaming import rename_transforms
 from tf2_ros._subscriptions import AUTHORITY, WIRES, Request, Topic
 from tf2_ros._ways import open_subscriptions
 from tf2_ros.buffer import Buffer, clear_on_time_jump
@@ -125,12 +125,12 @@ class TransformListener:
 
     def callback(self, data: TFMessage) -> None:
         """Insert the dynamic transforms of a message."""
-        for transform in renamed(data.transforms, self.__renaming):
+        for transform in rename_transforms(data.transforms, self.__renaming):
             self.buffer.set_transform(transform, AUTHORITY)
 
     def static_callback(self, data: TFMessage) -> None:
         """Insert the static transforms of a message."""
-        for transform in renamed(data.transforms, self.__renaming):
+        for transform in rename_transforms(data.transforms, self.__renaming):
             self.buffer.set_transform_static(transform, AUTHORITY)
 
     def __subscribe(self, *, shared: bool = True) -> None:

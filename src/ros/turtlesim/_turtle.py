@@ -163,8 +163,8 @@ class Turtle:
             rotation.handle.canceled()
             self._end_rotation(rotation)
             return
-        remaining = _normalized(_normalized(rotation.handle.request.theta) - self.theta)
-        rotation.result.delta = _normalized(rotation.start - self.theta)
+        remaining = _normalize_angle(_normalize_angle(rotation.handle.request.theta) - self.theta)
+        rotation.result.delta = _normalize_angle(rotation.start - self.theta)
         rotation.handle.publish_feedback(RotateAbsolute.Feedback(remaining=remaining))
         if abs(remaining) < _TOLERANCE:
             self._node.get_logger().info("Rotation goal completed successfully")
@@ -184,7 +184,7 @@ class Turtle:
         self._linear_x = self._linear_y = self._angular = 0.0
 
     def _move(self, dt: float) -> None:
-        self.theta = _normalized(self.theta + self._angular * dt)
+        self.theta = _normalize_angle(self.theta + self._angular * dt)
         cos, sin = math.cos(self.theta), math.sin(self.theta)
         self.x += (cos * self._linear_x - sin * self._linear_y) * dt
         self.y -= (cos * self._linear_y + sin * self._linear_x) * dt
@@ -216,5 +216,5 @@ def is_in_range(*values: float) -> bool:
     return all(abs(value) <= MAX_VALUE for value in values)  # False for NaN
 
 
-def _normalized(angle: float) -> float:
+def _normalize_angle(angle: float) -> float:
     return angle - math.tau * math.floor((angle + math.pi) / math.tau)

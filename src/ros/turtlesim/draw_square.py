@@ -31,7 +31,7 @@ class _Goal(NamedTuple):
     y: float
     theta: float
 
-    def reached(self, pose: Pose) -> bool:
+    def has_reached(self, pose: Pose) -> bool:
         return abs(pose.x - self.x) < 0.1 and abs(pose.y - self.y) < 0.1 and abs(pose.theta - self.theta) < 0.01
 
 
@@ -71,7 +71,7 @@ class DrawSquare(Node):
 
     def __approach(self, goal: _Goal, pose: Pose) -> None:
         forward = self.__state is _State.FORWARD
-        if goal.reached(pose):
+        if goal.has_reached(pose):
             self.__state = _State.STOP_FORWARD if forward else _State.STOP_TURN
             self.__command(0.0, 0.0)
         else:

@@ -8,7 +8,7 @@ from typing import Any
 
 import rclpy
 from coframe._process.keys import keys
-from coframe.nodes.program import initialized, program
+from coframe.nodes.program import initialize_rclpy, program
 from geometry_msgs.msg import Twist
 from rclpy.action import ActionClient
 from rclpy.executors import ExternalShutdownException
@@ -73,7 +73,7 @@ def _run(words: list[str], _arguments: list[str]) -> None:
     if not sys.stdin.isatty():
         sys.exit("turtle_teleop_key: the keys are read from a terminal, but the standard input is not one")
     try:
-        with initialized(words, None), keys() as pressed:
+        with initialize_rclpy(words, None), keys() as pressed:
             node = TeleopTurtle()
             print(_INSTRUCTIONS)  # noqa: T201 - the program's own output
             while rclpy.ok():

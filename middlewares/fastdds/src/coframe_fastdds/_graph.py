@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from coframe_fastdds import _fastdds as native
 
 _SERVER: Final = "known to the discovery server"
-_ANNOUNCED: Final = "Fast DDS, announced every 3 s"
+_PERIODIC_DISCOVERY: Final = "Fast DDS, announced every 3 s"
 _DISCOVERY_TIME: Final = 3.2  # seconds in which every other participant has announced itself
 
 
@@ -36,7 +36,7 @@ class FastDdsGraph(DdsGraph):
             _Changes(participant.take_participants),
         )
 
-        self._expected = _SERVER if has_server else _ANNOUNCED
+        self._expected = _SERVER if has_server else _PERIODIC_DISCOVERY
         self._deadline = time.monotonic() + _DISCOVERY_TIME
 
     def unnamed_participants(self) -> list[str]:

@@ -48,7 +48,7 @@ _PREFIX_SIZE: Final = 12  # bytes of a GUID that identify the participant
 _DISCOVERY: Final = 1.0  # seconds in which the writer of replies of a server, or a writer of requests, is discovered
 _DISCOVERY_NS: Final = 1000 * MILLISECOND
 _POLL: Final = 0.001  # seconds
-_NO_NUMBER: Final = 0
+_NO_SEQUENCE_NUMBER: Final = 0
 
 
 class _Client(NamedTuple):
@@ -87,7 +87,7 @@ class Clients:
             return self._known.get(number)
 
 
-class Pending:
+class PendingRequests:
     """The requests that clients of this process have sent in the plain form, by their identities.
 
     A reply may arrive before `write` has returned the number of its request, so that both use the same lock.
@@ -124,16 +124,16 @@ class Services:
 
     def __init__(self) -> None:
         self._clients: weakref.WeakValueDictionary[str, Clients] = weakref.WeakValueDictionary()
-        self._pending: weakref.WeakValueDictionary[str, Pending] = weakref.WeakValueDictionary()
-        self.writers: weakref.WeakSet[_TwoForms] = weakref.WeakSet()
+        self._pending: weakref.WeakValueDictionary[str, PendingRequests] = weakref.WeakValueDictionary()
+        self.writers: weakref.WeakSet[_RequestForms] = weakref.WeakSet()
 
     def clients(self, service: str) -> Clients:
         """Return the clients of a service."""
         return self._clients.setdefault(service, Clients())
 
-    def pending(self, service: str) -> Pending:
+    def pending(self, service: str) -> PendingRequests:
         """Return the requests to a service."""
-        return self._pending.setdefault(service, Pending())
+        return self._pending.setdefault(service, PendingRequests())
 
     def adapt(self) -> bool:
         """Create header writers where endpoints of Cyclone DDS have been discovered.
@@ -196,7 +196,7 @@ class RequestReader(_ServiceReader):
 class ReplyReader(_ServiceReader):
     """The reader of replies of a client."""
 
-    def __init__(self, pending: Pending, *arguments: Any) -> None:
+    def __init__(self, pending: PendingRequests, *arguments: Any) -> None:
         self._pending = pending
         super().__init__(*arguments)
 
@@ -209,7 +209,7 @@ class ReplyReader(_ServiceReader):
         return None if header is None else request_header.join(header, data)
 
 
-class _TwoForms:
+class _RequestForms:
     """A publisher of requests or replies in both forms. Implements `coframe.wire._backend.BackendServiceWriter`.
 
     Args:
@@ -333,7 +333,7 @@ class _TwoForms:
         return self._graph.readers(self._topic)
 
 
-class RequestWriter(_TwoForms):
+class RequestWriter(_RequestForms):
     """The publisher of requests of a client."""
 
     def __init__(
@@ -341,7 +341,7 @@ class RequestWriter(_TwoForms):
         endpoint: Endpoint,
         graph: FastDdsGraph,
         make_writer: Callable[[bool], native.Writer],
-        pending: Pending,
+        pending: PendingRequests,
         reader: ReplyReader | None,
     ) -> None:
         super().__init__(endpoint, graph, make_writer)
@@ -363,7 +363,9 @@ class RequestWriter(_TwoForms):
             writer.forward(message)
             return
         self._wait_for_replies(plain)
-        self._pending.send(header, self._identity, lambda: self._plain.write_related(cdr, self._identity, _NO_NUMBER))
+        self._pending.send(
+            header, self._identity, lambda: self._plain.write_related(cdr, self._identity, _NO_SEQUENCE_NUMBER)
+        )
 
     def reaches(self, header: RequestHeader, writer: int) -> bool:
         """Return True: requests are not replies."""
@@ -400,7 +402,7 @@ class RequestWriter(_TwoForms):
             time.sleep(_POLL)
 
 
-class ReplyWriter(_TwoForms):
+class ReplyWriter(_RequestForms):
     """The publisher of replies of a server."""
 
     def __init__(

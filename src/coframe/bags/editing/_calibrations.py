@@ -34,7 +34,7 @@ Mount = tuple[str, str, tuple[float, ...]]  # parent, child, pose
 
 _TRANSLATION, _ROTATION = ("x", "y", "z"), ("roll", "pitch", "yaw")
 _QUATERNION = ("qx", "qy", "qz", "qw")
-_ROTATED = 1e-4  # how far the matrix of a rotation may be off
+_MAX_ROTATION_ERROR = 1e-4  # how far the matrix of a rotation may be off
 
 
 def calibrated_transforms(path: Path, names: dict[str, str], survey: Survey) -> list[Mount]:
@@ -138,7 +138,7 @@ def _quaternion(rotation: NDArray[np.float64]) -> list[float]:
 
 
 def _rotation(path: Path, matrix: NDArray[np.float64]) -> NDArray[np.float64]:
-    if not np.allclose(matrix @ matrix.T, np.eye(3), atol=_ROTATED) or np.linalg.det(matrix) < 0.0:
+    if not np.allclose(matrix @ matrix.T, np.eye(3), atol=_MAX_ROTATION_ERROR) or np.linalg.det(matrix) < 0.0:
         raise EditError(f"{path}: a matrix in it is not a rotation")
     return matrix
 

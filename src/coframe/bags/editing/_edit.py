@@ -118,9 +118,9 @@ def edit(
             opened = read_input(source, types, problems, closing)
             survey = Survey(opened, types)
             pipeline = Pipeline(rules, survey, types, problems)
-            part = None if target is None else closing.enter_context(_complete_or_absent(target))
+            part = None if target is None else closing.enter_context(_remove_if_incomplete(target))
             files = _write(opened, target, part, pipeline, compression, progress)
-            counts = [_counted(rule, Survey(opened, types)) for rule in rules]
+            counts = [_count_changes(rule, Survey(opened, types)) for rule in rules]
         except DamagedError as error:
             raise DamagedRecordingError(
                 f"{source} is damaged: {error}", hint="Repair it first: `coframe bag fix BAG OUT`, then edit OUT."
@@ -174,7 +174,7 @@ def _add(progress: Callable[[int, int], object], before: int, total: int, read: 
     progress(before + read, total)
 
 
-def _counted(rule: Rule, survey: Survey) -> RuleCount:
+def _count_changes(rule: Rule, survey: Survey) -> RuleCount:
     nouns = rule.unit if rule.changes == 1 else f"{rule.unit}s"
     text = f"{rule.changes} {nouns} {rule.verb}"
     try:
@@ -185,7 +185,7 @@ def _counted(rule: Rule, survey: Survey) -> RuleCount:
 
 
 @contextmanager
-def _complete_or_absent(target: Path) -> Iterator[Path]:
+def _remove_if_incomplete(target: Path) -> Iterator[Path]:
     """Yield a temporary path next to the target, which gets its name only when everything has been written."""
     part = target.with_name(f".{target.name}.{uuid.uuid4().hex[:12]}.part")
     try:

@@ -18,7 +18,9 @@ __all__ = ["is_robot_description", "rename_frames"]
 
 _STRING = "std_msgs/msg/String"
 # The places of a URDF that name a link. The text around them stays as it is.
-_LINKS = re.compile(r"""(<\s*(link|parent|child|gazebo)\b[^<>]*?\b(?:name|link|reference)\s*=\s*)(["'])([^"'<>]*)\3""")
+_LINK_NAMES = re.compile(
+    r"""(<\s*(link|parent|child|gazebo)\b[^<>]*?\b(?:name|link|reference)\s*=\s*)(["'])([^"'<>]*)\3"""
+)
 _MAX_DESCRIPTION = 16 << 20  # bytes
 _MAX_NAMES = 100_000  # frame names whose new names are kept
 
@@ -91,7 +93,7 @@ def _of_description(rename: Callable[[str], str], rule: Rule, needed: bytes) -> 
         if needed not in message.data or len(message.data) > _MAX_DESCRIPTION:
             return True
         text: Any = deserialize(message.data, cls)
-        links = {match[4] for match in _LINKS.finditer(text.data) if match[2] == "link"}
+        links = {match[4] for match in _LINK_NAMES.finditer(text.data) if match[2] == "link"}
         changed = 0
 
         def replace(match: re.Match[str]) -> str:
@@ -102,7 +104,7 @@ def _of_description(rename: Callable[[str], str], rule: Rule, needed: bytes) -> 
             changed += new != match[4]
             return f"{match[1]}{match[3]}{new}{match[3]}"
 
-        renamed = _LINKS.sub(replace, text.data)
+        renamed = _LINK_NAMES.sub(replace, text.data)
         if changed:
             message.data = serialize(cls(data=renamed))
             rule.changes += changed

@@ -20,7 +20,7 @@ from coframe.bags._offered_qos import OfferedQos, to_yaml
 from coframe.bags.editing import _mcap_layout as mcap
 from coframe.bags.editing._mcap_output import IndexedRecords, McapOutput
 from coframe.bags.editing._message import EditedMessage
-from coframe.bags.editing._metadata import ROSBAG2, edited_text
+from coframe.bags.editing._metadata import ROSBAG2, edit_text
 from coframe.bags.formats import MCAP
 from coframe.messages.definition_texts import definition_of
 from coframe.type_names import TF_MESSAGE
@@ -41,7 +41,7 @@ _BLOCK_BYTES = 4 << 20  # bytes to read or copy at once
 _MAX_TIME = np.uint64((1 << 63) - 1)
 
 
-class _Edited(NamedTuple):
+class _EditedRecords(NamedTuple):
     """Edited records, and whether they differ from what was read."""
 
     records: IndexedRecords
@@ -95,7 +95,7 @@ class McapEditor:
             has_crc = mcap.has_data_crc(file, os.fstat(file.fileno()).st_size)
             file.seek(0)
             if self._target is None:
-                with McapOutput(_Nowhere(), has_crc=False) as self._out:
+                with McapOutput(_NullFile(), has_crc=False) as self._out:
                     self._edit(file, progress)
                 return
             with self._target.open("xb") as target, McapOutput(target, has_crc=has_crc) as self._out:
@@ -124,11 +124,11 @@ class McapEditor:
     def _edit_record(self, file: BinaryIO, opcode: int, length: int) -> None:
         """Edit or copy the record whose content begins at the position of the file."""
         if opcode == mcap.CHUNK:
-            self._edit_chunk(self._content(file, length))
+            self._edit_chunk(self._edit_content(file, length))
         elif opcode in {mcap.SCHEMA, mcap.CHANNEL, mcap.MESSAGE}:
             self._edit_block(file, length)
         elif opcode == mcap.MESSAGE_INDEX:
-            content = self._content(file, length)
+            content = self._edit_content(file, length)
             if self._copies_indexes:
                 self._out.copy_message_index(content)
         elif opcode in {mcap.HEADER, mcap.ATTACHMENT, mcap.METADATA} or opcode > mcap.DATA_END:
@@ -136,7 +136,7 @@ class McapEditor:
         else:
             raise DamagedError(f"a record of the type 0x{opcode:02x} is in the wrong place")
 
-    def _content(self, file: BinaryIO, length: int) -> bytes:
+    def _edit_content(self, file: BinaryIO, length: int) -> bytes:
         if length > MAX_UNPACKED_BYTES:
             raise DamagedError(f"a record claims to have {length} bytes")
         content = file.read(length)
@@ -171,7 +171,7 @@ class McapEditor:
         self._count(records)
         file.seek(start + done)
 
-    def _edit_records(self, data: bytes) -> _Edited:
+    def _edit_records(self, data: bytes) -> _EditedRecords:
         *columns, places, done = _core.mcap_records(data)
         if done != len(data):
             raise DamagedError("the records in a chunk are damaged")
@@ -189,8 +189,8 @@ class McapEditor:
             message_patches = self._edit_messages(data, rows, channels, times, records, starts, ends, kept)
             patches = sorted([*patches, *message_patches]) if patches else message_patches
         if not patches:
-            return _Edited(IndexedRecords(data, channels, times, records), is_changed=False)
-        return _Edited(_patched(data, patches, channels, times, records, kept), is_changed=True)
+            return _EditedRecords(IndexedRecords(data, channels, times, records), is_changed=False)
+        return _EditedRecords(_apply_patches(data, patches, channels, times, records, kept), is_changed=True)
 
     def _edit_messages(
         self,
@@ -331,7 +331,7 @@ class McapEditor:
     def _copy_other(self, file: BinaryIO, opcode: int, length: int) -> None:
         self._out.begin_indexed()
         if opcode == mcap.METADATA:
-            content = self._edit_metadata(self._content(file, length))
+            content = self._edit_metadata(self._edit_content(file, length))
             self._out.write(mcap.record(opcode, content))
             self._out.end_indexed(mcap.METADATA_INDEX, after=mcap.encoded_text(mcap.text_at(content, 0)[0]))
             return
@@ -358,7 +358,7 @@ class McapEditor:
         text = values.get("serialized_metadata", "")
         if name != ROSBAG2 or not text:
             return content
-        new = edited_text(text, self._pipeline, {self._channel_topic(n): count for n, count in self._counts.items()})
+        new = edit_text(text, self._pipeline, {self._channel_topic(n): count for n, count in self._counts.items()})
         return (
             content
             if new == text
@@ -374,9 +374,9 @@ class McapEditor:
             self._edited.counts[topic] = self._edited.counts.get(topic, 0) + count
             if number in self._routes:
                 self._routes[number].count(count)
-        self._out.finish(self._schemas.values(), self._channels.values(), self._statistics)
+        self._out.finish(self._schemas.values(), self._channels.values(), self._make_statistics)
 
-    def _statistics(self, attachments: int, metadata: int, chunks: int) -> bytes:
+    def _make_statistics(self, attachments: int, metadata: int, chunks: int) -> bytes:
         """Return the content of the record of statistics."""
         total, numbers = sum(self._counts.values()), (len(self._schemas), len(self._channels))
         times = self._edited.span or (0, 0)
@@ -396,14 +396,14 @@ def _attachment_facts(content: bytes) -> bytes:
     return content[:16] + struct.pack("<Q", size) + mcap.encoded_text(name) + mcap.encoded_text(media_type)
 
 
-class _Nowhere:
+class _NullFile:
     """Takes what a dry run writes."""
 
     def write(self, data: bytes) -> int:
         return len(data)
 
 
-def _patched(
+def _apply_patches(
     data: bytes,
     patches: list[tuple[int, int, bytes]],
     channels: NDArray[np.uint16],

@@ -89,11 +89,11 @@ class McapOutput:
 
     def write(self, data: Data) -> None:
         """Write bytes."""
-        self._do(lambda _: self._write(data))
+        self._submit_job(lambda _: self._write(data))
 
     def begin_indexed(self) -> None:
         """Begin a record that gets an index record."""
-        self._do(lambda _: setattr(self, "_start", self._end))
+        self._submit_job(lambda _: setattr(self, "_start", self._end))
 
     def end_indexed(self, opcode: int, *, before: bytes = b"", after: bytes = b"") -> None:
         """Add the index record of what was written since :meth:`begin_indexed`: its offset and length, then `after`."""
@@ -102,12 +102,12 @@ class McapOutput:
             place = struct.pack("<QQ", self._start, self._end - self._start)
             self._add_index(opcode, before + place + after)
 
-        self._do(add)
+        self._submit_job(add)
 
     def copy_chunk(self, content: bytes, chunk: mcap.Chunk) -> None:
         """Write a chunk as it was read."""
         new = _Chunk((chunk.first, chunk.last), chunk.compression, chunk.packed, len(chunk.data))
-        self._do(lambda _: self._write_chunk(new, b"", content))
+        self._submit_job(lambda _: self._write_chunk(new, b"", content))
 
     def write_chunk(self, records: IndexedRecords, compression: str, *, has_crc: bool) -> None:
         """Write a new chunk with its message indexes."""
@@ -124,17 +124,17 @@ class McapOutput:
                 self._write_message_index(index)
 
         if compression:
-            self._do(write, self._pool.submit(self._compress, data, compression))
+            self._submit_job(write, self._pool.submit(self._compress, data, compression))
         else:
-            self._do(lambda _: write(data))
+            self._submit_job(lambda _: write(data))
 
     def copy_message_index(self, content: bytes) -> None:
         """Write a message index of a copied chunk."""
-        self._do(lambda _: self._write_message_index(content))
+        self._submit_job(lambda _: self._write_message_index(content))
 
     def finish_chunk(self) -> None:
         """Add the index record of the last chunk, if there is one without it."""
-        self._do(lambda _: self._finish_chunk())
+        self._submit_job(lambda _: self._finish_chunk())
 
     def finish(self, schemas: Iterable[bytes], channels: Iterable[bytes], statistics: Callable[..., bytes]) -> None:
         """Write the end of the file.
@@ -145,7 +145,7 @@ class McapOutput:
             statistics: Returns the content of their record, for the numbers of attachments, metadata and chunks.
         """
         while self._waiting:
-            self._do_next()
+            self._finish_next_job()
         self._write(mcap.record(mcap.DATA_END, struct.pack("<I", self._crc if self._has_crc else 0)))
         start = self._end
         kinds = (mcap.ATTACHMENT_INDEX, mcap.METADATA_INDEX, mcap.CHUNK_INDEX)
@@ -167,19 +167,19 @@ class McapOutput:
         checksum = zlib.crc32(summary + offsets + footer)
         self._write(bytes(summary + offsets) + footer + struct.pack("<I", checksum) + MCAP.magic)
 
-    def _do(self, action: Callable[[bytes], object], packed: Future[bytes] | None = None) -> None:
+    def _submit_job(self, action: Callable[[bytes], object], packed: Future[bytes] | None = None) -> None:
         """Do something when everything before has been done, with the result of another thread."""
         if packed is None and not self._waiting:
             action(b"")
             return
         self._waiting.append((packed, action))
         while self._waiting and (self._is_full() or self._waiting[0][0] is None or self._waiting[0][0].done()):
-            self._do_next()
+            self._finish_next_job()
 
     def _is_full(self) -> bool:
         return sum(packed is not None for packed, _ in self._waiting) > self._threads + 1
 
-    def _do_next(self) -> None:
+    def _finish_next_job(self) -> None:
         packed, action = self._waiting.popleft()
         action(b"" if packed is None else packed.result())
 

@@ -16,21 +16,21 @@ if TYPE_CHECKING:
     from coframe.bags.editing._pipeline import Pipeline
     from coframe.bags.storage import Channel
 
-__all__ = ["ROSBAG2", "EditedFile", "edited_metadata", "edited_text", "metadata_text", "new_metadata"]
+__all__ = ["ROSBAG2", "EditedFile", "edit_text", "edited_metadata", "metadata_text", "new_metadata"]
 
 ROSBAG2 = "rosbag2"  # name of the record of MCAP files in which rosbag2 repeats its metadata.yaml
 _VERSION = 5  # that Humble writes and later versions of rosbag2 read
-_VERSION_WITH_WORDS = 9
-_FOREVER = {"sec": 9223372036, "nsec": 854775807}
+_TEXT_QOS_VERSION = 9
+_INFINITE_DURATION = {"sec": 9223372036, "nsec": 854775807}
 _STATIC_QOS = {
     "history": "keep_last",
     "depth": 1,
     "reliability": "reliable",
     "durability": "transient_local",
-    "deadline": _FOREVER,
-    "lifespan": _FOREVER,
+    "deadline": _INFINITE_DURATION,
+    "lifespan": _INFINITE_DURATION,
     "liveliness": "automatic",
-    "liveliness_lease_duration": _FOREVER,
+    "liveliness_lease_duration": _INFINITE_DURATION,
     "avoid_ros_namespace_conventions": False,
 }
 _ROOT = "rosbag2_bagfile_information"
@@ -62,7 +62,7 @@ class EditedFile:
         return sum(self.counts.values())
 
 
-def edited_text(text: str, pipeline: Pipeline, counts: dict[str, int]) -> str:
+def edit_text(text: str, pipeline: Pipeline, counts: dict[str, int]) -> str:
     """Return the YAML of rosbag2's metadata with the new topics; unchanged if it cannot be read or stays valid."""
     try:
         found = read_yaml(text, MAX_BYTES)
@@ -168,7 +168,7 @@ def _totals(metadata: dict[str, Any], files: list[EditedFile]) -> dict[str, Any]
 def _static_topic(name: str, metadata: dict[str, Any], counts: dict[str, int]) -> dict[str, Any]:
     """Return the entry of a topic with static transforms."""
     version = metadata.get("version", 0)
-    uses_words = isinstance(version, int) and version >= _VERSION_WITH_WORDS
+    uses_words = isinstance(version, int) and version >= _TEXT_QOS_VERSION
     topic: dict[str, Any] = {
         "name": name,
         "type": TF_MESSAGE,

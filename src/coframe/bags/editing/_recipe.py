@@ -65,7 +65,7 @@ RULES: Final[dict[str, type[Rule]]] = {
 
 _MAX_BYTES = 1 << 20
 _MAX_RULES = 1000
-_KEY = "edit"  # of the list in a recipe
+_RULES_KEY = "edit"  # of the list in a recipe
 _HEADING = "# Recipe for `coframe bag edit BAG --recipe FILE -o OUT`.\n"
 
 
@@ -143,7 +143,7 @@ class Recipe:
 
     def __str__(self) -> str:
         """Return the recipe as YAML."""
-        return _HEADING + yaml_dump()({_KEY: [{name: value} if value else name for name, value in self._values]})
+        return _HEADING + yaml_dump()({_RULES_KEY: [{name: value} if value else name for name, value in self._values]})
 
     def __iter__(self) -> Iterator[Rule]:
         return iter(self.rules())
@@ -165,10 +165,10 @@ def _rule(name: str, value: str) -> Rule:
 
 def _entries(path: str | os.PathLike[str], content: Any) -> Iterator[tuple[str, str]]:
     """Yield names and values: ``- rename-frame: a=b``, ``- rename-frame: [a=b, c=d]`` or ``- dedupe``."""
-    entries = content.get(_KEY) if isinstance(content, dict) else None
+    entries = content.get(_RULES_KEY) if isinstance(content, dict) else None
     if not isinstance(entries, list):
         raise EditError(
-            f"{path} is not a recipe: it has no list with the key {_KEY!r}",
+            f"{path} is not a recipe: it has no list with the key {_RULES_KEY!r}",
             hint="Write `edit:` and below it one line for each rule, such as `- rename-frame: Lidar=lidar`.",
         )
     for entry in entries:

@@ -11,7 +11,7 @@ from coframe.bags._compression import MAX_UNPACKED_BYTES, DamagedError
 from coframe.bags._offered_qos import OfferedQos, to_yaml
 from coframe.bags._sqlite_database import DAMAGE_ERRORS, Database
 from coframe.bags.editing._message import EditedMessage
-from coframe.bags.editing._metadata import edited_text
+from coframe.bags.editing._metadata import edit_text
 from coframe.bags.editing._survey import Source
 from coframe.bags.storage import Channel
 from coframe.messages.definition_texts import definition_of
@@ -189,7 +189,7 @@ class SqliteEditor:
                 self._edited.counts[topic] = self._edited.counts.get(topic, 0) + kept
         metadata = list(self._source.rows("metadata"))
         for row in metadata:
-            row["metadata"] = edited_text(str(row["metadata"]), self._pipeline, self._edited.counts)
+            row["metadata"] = edit_text(str(row["metadata"]), self._pipeline, self._edited.counts)
         self._copy_rows("metadata", metadata)
         self._out.execute("CREATE INDEX timestamp_idx ON messages (timestamp ASC)")
         self._out.commit()

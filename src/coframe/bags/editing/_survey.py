@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["FoundTransform", "Source", "Survey"]
 
 _MAX_STATIC = 10_000  # static transforms that are compared
-_SAMPLED = 200  # messages on a topic whose frame names are collected for hints
+_MAX_SAMPLED_MESSAGES = 200  # messages on a topic whose frame names are collected for hints
 _MAX_SAMPLED = 20_000  # messages on all topics together
 
 
@@ -123,8 +123,8 @@ class Survey:
 
     def messages(self, wanted: Callable[[EditedTopic], bool]) -> Iterator[tuple[EditedTopic, int, EditedMessage]]:
         """Yield the messages on some topics, as recorded, with the names of their topics after the rules before."""
-        for topic, received, message in self._messages(lambda topic: wanted(self._renamed(topic))):
-            yield self._renamed(topic), received, message
+        for topic, received, message in self._messages(lambda topic: wanted(self._rename_topic(topic))):
+            yield self._rename_topic(topic), received, message
 
     @cached_property
     def frames(self) -> set[str]:
@@ -135,7 +135,7 @@ class Survey:
         for topic, _, message in self._messages(lambda topic: topic.has_transforms or topic.frames is not None):
             counts[topic.channel] = counts.get(topic.channel, 0) + 1
             left -= 1
-            if counts[topic.channel] <= _SAMPLED and topic.frames is not None:
+            if counts[topic.channel] <= _MAX_SAMPLED_MESSAGES and topic.frames is not None:
                 with suppress(DecodeError, ValueError):
                     found |= topic.frames.names(message.data)
             if not left:
@@ -149,7 +149,7 @@ class Survey:
             for channel, received, data in self._source.messages(chosen.__contains__):
                 yield topics[channel], received, EditedMessage(data, received, received)
 
-    def _renamed(self, topic: EditedTopic) -> EditedTopic:
+    def _rename_topic(self, topic: EditedTopic) -> EditedTopic:
         return EditedTopic(topic.channel, self._topic(topic.name) or "", self._types)
 
     def _topic(self, name: str) -> str | None:

@@ -19,7 +19,7 @@ __all__ = ["POSE", "RecordedTransform", "join_transforms", "split_transforms"]
 POSE = struct.Struct("<7d")
 """The values of a transform in :attr:`RecordedTransform.pose`: x, y, z, qx, qy, qz, qw."""
 _MIN_SIZE = 76  # bytes of a transform with empty names
-_ENDS = [bytes(1 + size) for size in range(8)]  # the NUL of a string, and padding
+_STRING_ENDS = [bytes(1 + size) for size in range(8)]  # the NUL of a string, and padding
 
 
 @dataclass(slots=True)
@@ -89,9 +89,9 @@ def join_transforms(transforms: Sequence[RecordedTransform], header: bytes) -> b
         seconds, nanoseconds = divmod(one.stamp, SECOND)
         out += head(seconds, nanoseconds, len(one.parent) + 1)
         out += one.parent
-        out += _ENDS[-(len(out) + 1) & 3]
+        out += _STRING_ENDS[-(len(out) + 1) & 3]
         out += length_of(len(one.child) + 1)
         out += one.child
-        out += _ENDS[HEADER_SIZE - (len(out) + 1) & 7]
+        out += _STRING_ENDS[HEADER_SIZE - (len(out) + 1) & 7]
         out += one.pose
     return bytes(out)

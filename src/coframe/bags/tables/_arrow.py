@@ -29,7 +29,7 @@ def arrow_array(pyarrow: Any, leaf: Leaf, array: NDArray[Any], known: NDArray[np
         flat = pyarrow.array(np.ascontiguousarray(array).reshape(-1))
         return pyarrow.FixedSizeListArray.from_arrays(flat, type=type_, mask=pyarrow.array(~known))
     if leaf.kind == "list":
-        values = [_plain(value) if is_known else None for value, is_known in zip(array, known, strict=True)]
+        values = [_to_plain_data(value) if is_known else None for value, is_known in zip(array, known, strict=True)]
         return pyarrow.array(values, type=type_)
     return pyarrow.array(array, type=type_, mask=~known)
 
@@ -38,17 +38,17 @@ def arrow_struct(pyarrow: Any, values: Sequence[_Value], valid: NDArray[np.bool_
     """Return the values of a column as one array: a struct that is nested like its message."""
     if len(values) == 1 and not values[0][0].steps:
         return arrow_array(pyarrow, *values[0])
-    return _nested(pyarrow, list(values), 0, valid)
+    return _nested_array(pyarrow, list(values), 0, valid)
 
 
-def _nested(pyarrow: Any, values: list[_Value], depth: int, valid: NDArray[np.bool_] | None) -> Any:
+def _nested_array(pyarrow: Any, values: list[_Value], depth: int, valid: NDArray[np.bool_] | None) -> Any:
     groups: dict[str, list[_Value]] = {}
     for value in values:
         groups.setdefault(value[0].steps[depth], []).append(value)
     children = [
         arrow_array(pyarrow, *group[0])
         if len(group) == 1 and len(group[0][0].steps) == depth + 1
-        else _nested(pyarrow, group, depth + 1, None)
+        else _nested_array(pyarrow, group, depth + 1, None)
         for group in groups.values()
     ]
     mask = None if valid is None else pyarrow.array(~valid)
@@ -78,14 +78,14 @@ def _defined_type(pyarrow: Any, type_: Any) -> Any:
     return pyarrow.struct([(name, _defined_type(pyarrow, inner)) for name, inner in class_fields(type_).items()])
 
 
-def _plain(value: Any) -> Any:
+def _to_plain_data(value: Any) -> Any:
     """Return a message as a dictionary, and a sequence as a list."""
     if hasattr(type(value), "SLOT_TYPES"):
-        return {name: _plain(getattr(value, name)) for name in class_fields(type(value))}
+        return {name: _to_plain_data(getattr(value, name)) for name in class_fields(type(value))}
     if isinstance(value, np.ndarray):
         return value.tolist()
     if isinstance(value, bytes):
         return value[0] if len(value) == 1 else 0
     if isinstance(value, str) or not hasattr(value, "__iter__"):
         return value
-    return [_plain(each) for each in value]
+    return [_to_plain_data(each) for each in value]

@@ -50,18 +50,18 @@ Path: TypeAlias = "tuple[str, ...]"
 Names: TypeAlias = "Mapping[tuple[str, ...], list[str]]"
 
 MAX_LEAVES = 10_000  # of one column
-_TIMES = ({"sec", "nanosec"}, {"sec", "nsec"}, {"secs", "nsecs"}, {"seconds", "nanos"})
-_NAMES = ("name", "names", "joint_names")  # sequences of strings that name the elements next to them
-_BYTES = {"uint8", "octet", "char"}
-_INTEGERS = [f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)]
-DTYPES: dict[str, np.dtype[Any]] = {name: np.dtype(name) for name in _INTEGERS} | {
+_TIME_FIELDS = ({"sec", "nanosec"}, {"sec", "nsec"}, {"secs", "nsecs"}, {"seconds", "nanos"})
+_NAME_FIELDS = ("name", "names", "joint_names")  # sequences of strings that name the elements next to them
+_BYTE_TYPES = {"uint8", "octet", "char"}
+_INTEGER_TYPES = [f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)]
+DTYPES: dict[str, np.dtype[Any]] = {name: np.dtype(name) for name in _INTEGER_TYPES} | {
     "float": np.dtype("float32"),
     "double": np.dtype("float64"),
     "octet": np.dtype("uint8"),
     "char": np.dtype("uint8"),
     "boolean": np.dtype("bool"),
 }
-_OBJECT = np.dtype(object)
+_OBJECT_DTYPE = np.dtype(object)
 
 
 class MissingElementError(CoframeError, LookupError):
@@ -84,7 +84,7 @@ class Leaf:
 
     steps: Path
     kind: Kind
-    dtype: np.dtype[Any] = _OBJECT
+    dtype: np.dtype[Any] = _OBJECT_DTYPE
     size: int = 0
     type_: AbstractType | None = None
     axis: str = ""
@@ -134,7 +134,7 @@ def class_leaves(type_: Any, steps: Path, path: Path, names: Names) -> Found:
 
 def _message_leaves(type_: Any, steps: Path, path: Path, names: Names) -> Found:
     fields = class_fields(type_)
-    if set(fields) in _TIMES:
+    if set(fields) in _TIME_FIELDS:
         yield Leaf(_in_nanoseconds(steps), "time", np.dtype("int64")), Getter(path)
         return
     beside = names_beside(fields)
@@ -171,7 +171,7 @@ def name_lists(type_: Any, path: Path = ()) -> Iterator[Path]:
 
 def names_beside(fields: Mapping[str, Any]) -> str:
     """Return the field that names the elements of the sequences next to it; "" if there is none."""
-    for name in _NAMES:
+    for name in _NAME_FIELDS:
         type_ = fields.get(name)
         if isinstance(type_, AbstractNestedType) and isinstance(type_.value_type, AbstractGenericString):
             return name
@@ -196,13 +196,13 @@ def _sequence(type_: AbstractNestedType, steps: Path) -> Leaf:
     name = type_.value_type.typename
     if isinstance(type_, Array):
         return Leaf(steps, "array", DTYPES[name], type_.size)
-    return Leaf(steps, "bytes") if name in _BYTES else Leaf(steps, "numbers", DTYPES[name])
+    return Leaf(steps, "bytes") if name in _BYTE_TYPES else Leaf(steps, "numbers", DTYPES[name])
 
 
 def value_leaves(value: Any, steps: Path = ()) -> Found:
     """Yield the values in a message of JSON or protobuf; the values of one message determine those of all."""
     names = value_fields(value)
-    if set(names) in _TIMES:
+    if set(names) in _TIME_FIELDS:
         yield Leaf(_in_nanoseconds(steps), "time", np.dtype("int64")), Getter(steps)
     elif names:
         for name in names:

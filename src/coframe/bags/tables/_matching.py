@@ -12,12 +12,12 @@ if TYPE_CHECKING:
 
     from coframe.bags.tables.columns import Method
 
-__all__ = ["Picks", "pick"]
+__all__ = ["MatchedRows", "pick"]
 
-_FARTHEST = np.iinfo(np.int64).max
+_MAX_STAMP = np.iinfo(np.int64).max
 
 
-class Picks(NamedTuple):
+class MatchedRows(NamedTuple):
     """The samples for each of N times.
 
     Attributes:
@@ -39,7 +39,7 @@ class Picks(NamedTuple):
 
 def pick(
     samples: NDArray[np.int64], times: NDArray[np.int64], method: Method, tolerance: int | None, max_gap: int | None
-) -> Picks:
+) -> MatchedRows:
     """Return which samples the values at some times come from.
 
     Of samples with equal stamps, the last one counts. If two are equally near, it is the earlier one.
@@ -57,21 +57,23 @@ def pick(
     # The last one of those with the next stamp.
     later = np.minimum(before + 1, len(samples) - 1)
     later = np.searchsorted(samples, samples[later], side="right") - 1
-    to_later = np.where(samples[later] >= times, samples[later] - times, _FARTHEST)
-    to_earlier = np.where(before >= 0, times - samples[earlier], _FARTHEST)
+    to_later = np.where(samples[later] >= times, samples[later] - times, _MAX_STAMP)
+    to_earlier = np.where(before >= 0, times - samples[earlier], _MAX_STAMP)
     nearest = np.where(to_later < to_earlier, later, earlier)
     if method == "interpolate":
-        return _between(samples, times, np.where(is_equal, earlier, later), earlier, nearest, tolerance, max_gap)
+        return _interpolation_picks(
+            samples, times, np.where(is_equal, earlier, later), earlier, nearest, tolerance, max_gap
+        )
     chosen = earlier if method == "previous" else nearest
     age = times - samples[chosen]
     limit = 0 if method == "match" and tolerance is None else tolerance
     valid = np.ones(len(times), bool) if limit is None else np.abs(age) <= limit
     if method == "previous":
         valid &= before >= 0
-    return Picks(chosen, chosen, np.zeros(len(times)), valid, age, np.zeros(len(times), np.int64))
+    return MatchedRows(chosen, chosen, np.zeros(len(times)), valid, age, np.zeros(len(times), np.int64))
 
 
-def _between(
+def _interpolation_picks(
     samples: NDArray[np.int64],
     times: NDArray[np.int64],
     second: NDArray[np.intp],
@@ -79,7 +81,7 @@ def _between(
     nearest: NDArray[np.intp],
     tolerance: int | None,
     max_gap: int | None,
-) -> Picks:
+) -> MatchedRows:
     gap = samples[second] - samples[first]
     valid = (samples[first] <= times) & (times <= samples[second])
     share = np.divide(times - samples[first], gap, out=np.zeros(len(times)), where=gap > 0)
@@ -88,4 +90,4 @@ def _between(
         valid &= np.abs(age) <= tolerance
     if max_gap is not None:
         valid &= gap <= max_gap
-    return Picks(first, second, np.clip(share, 0.0, 1.0), valid, age, np.where(valid, gap, 0))
+    return MatchedRows(first, second, np.clip(share, 0.0, 1.0), valid, age, np.where(valid, gap, 0))

@@ -11,7 +11,7 @@ from coframe._output.formatting import count, did_you_mean, duration, join_names
 from coframe.analysis.liveness import usual_gap, usual_period
 from coframe.bags.tables._fields import FieldReader
 from coframe.bags.tables._leaves import Leaf
-from coframe.bags.tables._matching import Picks, pick
+from coframe.bags.tables._matching import MatchedRows, pick
 from coframe.bags.tables._values import check_interpolation, values_at
 from coframe.bags.tables.columns import Key, PoseSource
 from coframe.bags.tables.table import TableColumn, TableValue
@@ -30,14 +30,14 @@ if TYPE_CHECKING:
     from coframe.bags.recording import Recording
     from coframe.bags.tables.columns import FieldSource, Method
 
-__all__ = ["FieldColumn", "PoseColumn", "Sampled", "TopicReader", "outside_text", "path_column"]
+__all__ = ["FieldColumn", "PoseColumn", "SampledColumn", "TopicReader", "outside_text", "path_column"]
 
 MAX_ELEMENT_NAMES = 1000  # of one topic
 _MIN_INTERVALS = 10  # With fewer messages, the usual period of a topic is not known.
 _COVARIANCE = Leaf(("covariance",), "array", np.dtype("float64"), 36)
 
 
-class Sampled(Protocol):
+class SampledColumn(Protocol):
     """A column that has values in an interval of time."""
 
     label: str
@@ -95,7 +95,7 @@ class TopicReader:
                 return message
         raise RecordingError(f"{self.topic}: no message can be decoded", hint="The bytes are damaged.")
 
-    def each(self, indices: Iterable[int]) -> Iterable[tuple[int, Any]]:
+    def iterate_messages(self, indices: Iterable[int]) -> Iterable[tuple[int, Any]]:
         """Yield some messages with their index in `samples`, in the order of the file; None if damaged."""
         by_row = sorted((int(self._order[index]), index) for index in indices)
         return ((index, self._message(index)) for _, index in by_row)
@@ -156,7 +156,7 @@ class FieldColumn:
         samples = self.samples
         return int(samples[0]), int(samples[-1])
 
-    def picks(self, times: NDArray[np.int64], rows: NDArray[np.intp] | None) -> Picks:
+    def picks(self, times: NDArray[np.int64], rows: NDArray[np.intp] | None) -> MatchedRows:
         """Return the messages for some times, as indices into those of the topic.
 
         Args:
@@ -166,12 +166,12 @@ class FieldColumn:
         every = len(self._chosen) == len(self.messages.samples)
         if rows is not None and every and self._method != "interpolate":
             zero = np.zeros(len(times), np.int64)
-            return Picks(rows, rows, np.zeros(len(times)), np.ones(len(times), bool), zero, zero)
+            return MatchedRows(rows, rows, np.zeros(len(times)), np.ones(len(times), bool), zero, zero)
         found = pick(self.samples, times, self._method, self._tolerance, self._max_gap)
         self._count_unusual(found)
         return found._replace(first=self._chosen[found.first], second=self._chosen[found.second])
 
-    def values(self, picks: Picks, messages: Sequence[Any], indices: NDArray[np.intp]) -> TableColumn:
+    def values(self, picks: MatchedRows, messages: Sequence[Any], indices: NDArray[np.intp]) -> TableColumn:
         """Return the column.
 
         Args:
@@ -184,7 +184,7 @@ class FieldColumn:
         )
         interpolate = self._method == "interpolate"
         arrays, known = values_at(self.leaves, messages, here, interpolate=interpolate)
-        values = [TableValue(*each) for each in zip(self.leaves, map(_marked, arrays, known), known, strict=True)]
+        values = [TableValue(*each) for each in zip(self.leaves, map(_fill_unknown, arrays, known), known, strict=True)]
         valid = picks.valid.copy()
         if known:
             valid &= np.logical_or.reduce(known)
@@ -214,7 +214,7 @@ class FieldColumn:
         away = "" if self._method == "interpolate" else " away"
         return f"{self._unusual} of {count(self._rows, 'value')} of {self.label} {how} {duration(self._longest)}{away}"
 
-    def _count_unusual(self, picks: Picks) -> None:
+    def _count_unusual(self, picks: MatchedRows) -> None:
         limit = self._max_gap if self._method == "interpolate" else self._tolerance
         self._rows += len(picks.valid)
         if limit is not None or self._method == "match" or len(self.samples) <= _MIN_INTERVALS:
@@ -229,7 +229,7 @@ class FieldColumn:
         names: dict[tuple[str, ...], dict[str, None]] = {path: {} for path in reader.name_lists}
         has_value = np.zeros(len(self.messages.samples), dtype=bool)
         others: dict[str, None] = {}
-        for index, message in self.messages.each(range(len(self.messages.samples))):
+        for index, message in self.messages.iterate_messages(range(len(self.messages.samples))):
             if message is None:
                 continue
             found = reader.read(message)
@@ -352,7 +352,7 @@ def path_column(label: str, poses: Transform, max_gap: int | None, *, covariance
     return PoseColumn(label, PoseSource("reference", "pose"), buffer, max_gap, covariance=covariance)
 
 
-def _marked(array: NDArray[Any], known: NDArray[np.bool_]) -> NDArray[Any]:
+def _fill_unknown(array: NDArray[Any], known: NDArray[np.bool_]) -> NDArray[Any]:
     """Return the values with those that are not known as NaN, None or 0."""
     if known.all():
         return array

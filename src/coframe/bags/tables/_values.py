@@ -20,12 +20,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from coframe.bags.tables._leaves import Leaf
-    from coframe.bags.tables._matching import Picks
+    from coframe.bags.tables._matching import MatchedRows
 
 __all__ = ["Values", "check_interpolation", "values_at"]
 
 _MIN_NORM = 1e-3  # of a quaternion; drivers without an orientation publish zeros
-_NOT_NUMBERS = {
+_NON_NUMERIC_KINDS = {
     "boolean": "a boolean",
     "text": "a string",
     "bytes": "a block of bytes",
@@ -42,7 +42,7 @@ class Values:
     """
 
     def __init__(self, leaf: Leaf, raw: Sequence[Any]) -> None:
-        values = [None if value is None else _converted(value, leaf) for value in raw]
+        values = [None if value is None else _convert_value(value, leaf) for value in raw]
         self.known: NDArray[np.bool_] = np.array([value is not None for value in values], dtype=bool)
         self.array: NDArray[Any]
         if leaf.kind == "numbers" or leaf.dtype.kind == "O":
@@ -61,16 +61,16 @@ class Values:
 def check_interpolation(label: str, leaves: Sequence[Leaf]) -> None:
     """Raise a RecordingError if a value cannot be interpolated."""
     for leaf in leaves:
-        if leaf.kind in _NOT_NUMBERS:
+        if leaf.kind in _NON_NUMERIC_KINDS:
             below = "Choose a field with numbers, or a" if leaf.steps else "A"
             raise RecordingError(
-                f"{label}{leaf.suffix} is {_NOT_NUMBERS[leaf.kind]}, which cannot be interpolated",
+                f"{label}{leaf.suffix} is {_NON_NUMERIC_KINDS[leaf.kind]}, which cannot be interpolated",
                 hint=f'{below}nother method for this column: Column("{label}", "nearest"), or {label}@nearest.',
             )
 
 
 def values_at(
-    leaves: Sequence[Leaf], raw: Sequence[tuple[Any, ...] | None], picks: Picks, *, interpolate: bool
+    leaves: Sequence[Leaf], raw: Sequence[tuple[Any, ...] | None], picks: MatchedRows, *, interpolate: bool
 ) -> tuple[list[NDArray[Any]], list[NDArray[np.bool_]]]:
     """Return the values of a column at N times, and whether they exist.
 
@@ -87,7 +87,7 @@ def values_at(
     if not interpolate:
         return [each.array[picks.first] for each in columns], known
     found = [
-        _between(each.array[picks.first], each.array[picks.second], picks.share, leaf)
+        _interpolate(each.array[picks.first], each.array[picks.second], picks.share, leaf)
         for leaf, each in zip(leaves, columns, strict=True)
     ]
     for start in range(len(leaves) - 3):
@@ -96,26 +96,26 @@ def values_at(
     return found, known
 
 
-def _between(first: NDArray[Any], second: NDArray[Any], share: NDArray[np.float64], leaf: Leaf) -> NDArray[Any]:
+def _interpolate(first: NDArray[Any], second: NDArray[Any], share: NDArray[np.float64], leaf: Leaf) -> NDArray[Any]:
     if leaf.kind == "time":
         return np.asarray(first + np.rint((second - first) * share).astype(np.int64))
     if leaf.kind == "numbers":
         mixed = np.empty(len(first), dtype=object)
         for row, (one, other) in enumerate(zip(first, second, strict=True)):
-            mixed[row] = _mixed(one, other, share[row])
+            mixed[row] = _mix_sequences(one, other, share[row])
         return mixed
     weight = share if first.ndim == 1 else share[:, None]
-    return _mixed_arrays(first.astype(np.float64), second.astype(np.float64), weight)
+    return _mix_arrays(first.astype(np.float64), second.astype(np.float64), weight)
 
 
-def _mixed(one: Any, other: Any, share: float) -> Any:
+def _mix_sequences(one: Any, other: Any, share: float) -> Any:
     """Return a sequence between two of the same length; None if their lengths differ."""
     if one is None or other is None or len(one) != len(other):
         return None
-    return _mixed_arrays(one.astype(np.float64), other.astype(np.float64), np.full(len(one), share))
+    return _mix_arrays(one.astype(np.float64), other.astype(np.float64), np.full(len(one), share))
 
 
-def _mixed_arrays(one: NDArray[np.float64], other: NDArray[np.float64], share: NDArray[np.float64]) -> NDArray[Any]:
+def _mix_arrays(one: NDArray[np.float64], other: NDArray[np.float64], share: NDArray[np.float64]) -> NDArray[Any]:
     with np.errstate(invalid="ignore", over="ignore"):
         mixed = (1.0 - share) * one + share * other
     # At the stamp of a message, and between equal values, the value is exact: also if it is infinite.
@@ -125,7 +125,7 @@ def _mixed_arrays(one: NDArray[np.float64], other: NDArray[np.float64], share: N
 def _interpolate_rotations(
     leaves: Sequence[Leaf],
     columns: Sequence[Values],
-    picks: Picks,
+    picks: MatchedRows,
     start: int,
     found: list[NDArray[Any]],
     known: list[NDArray[np.bool_]],
@@ -151,7 +151,7 @@ def _interpolate_rotations(
         known[index] = known[index] & (usable | ~is_between)
 
 
-def _converted(value: Any, leaf: Leaf) -> Any:
+def _convert_value(value: Any, leaf: Leaf) -> Any:
     """Return a value of a message as one that NumPy stores; None if it has another type than in other messages."""
     try:
         return _CONVERSIONS[leaf.kind](value, leaf)

@@ -29,7 +29,7 @@ __all__ = [
     "PoseSource",
     "Step",
     "column",
-    "one_or_more",
+    "column_list",
     "parse_path",
 ]
 
@@ -188,7 +188,7 @@ def column(given: ColumnLike) -> Column:
     raise RecordingError(f"{given!r} is not a column", hint=_EXAMPLES)
 
 
-def one_or_more(given: ColumnLike | Sequence[ColumnLike]) -> list[ColumnLike]:
+def column_list(given: ColumnLike | Sequence[ColumnLike]) -> list[ColumnLike]:
     """Return columns as a list. A tuple of two names is one pose if they are names of frames."""
     if isinstance(given, str | Column | Transform):
         return [given]

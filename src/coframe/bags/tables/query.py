@@ -14,7 +14,7 @@ from coframe.bags._trajectory_query import MAX_RATE, stamps_at_rate
 from coframe.bags.namespaces import ALL_TRANSFORMS, TransformChoice
 from coframe.bags.tables._covariances import load_covariances
 from coframe.bags.tables._sampling import FieldColumn, PoseColumn, TopicReader, outside_text, path_column
-from coframe.bags.tables.columns import METHODS, Column, FieldSource, PathSource, PoseSource, column, one_or_more
+from coframe.bags.tables.columns import METHODS, Column, FieldSource, PathSource, PoseSource, column, column_list
 from coframe.bags.tables.table import Table
 from coframe.bags.time_points import parse_time_point
 from coframe.buffer.gaps import gap_limit
@@ -79,7 +79,7 @@ class TableQuery:
     transforms: TransformChoice = ALL_TRANSFORMS
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "columns", tuple(map(column, one_or_more(self.columns))))
+        object.__setattr__(self, "columns", tuple(map(column, column_list(self.columns))))
         if not self.columns:
             raise RecordingError("a table needs at least one column", hint="Such as '/odom.pose' or ('map', 'camera').")
         if self.at is not None and self.rate is not None:
@@ -137,7 +137,7 @@ class _Evaluation:
     ) -> None:
         self._query, self._recording, self._report = query, recording, report
         self._topics: dict[str, TopicReader] = {}
-        parsed = [column(each) for each in one_or_more(query.columns)]
+        parsed = [column(each) for each in column_list(query.columns)]
         self._at = None if stamps is not None else self._at_topic(parsed)
         if query.covariance:
             load_covariances(recording, [each.parsed for each in parsed if isinstance(each.parsed, PoseSource)])
@@ -159,7 +159,7 @@ class _Evaluation:
             part = slice(start, start + step)
             table = self._part(self._times[part], None if self._rows is None else self._rows[part])
             has_values |= [bool(each.valid.any()) for each in table.columns]
-            yield self._checked(table)
+            yield self._apply_gap_policy(table)
         for each, has_value in zip(self._columns, has_values, strict=True):
             if not has_value:
                 hint = self._missing_hint(each)
@@ -287,7 +287,7 @@ class _Evaluation:
         found |= poses
         return Table(times, [found[each.label] for each in self._columns], self._query.validity)
 
-    def _checked(self, table: Table) -> Table:
+    def _apply_gap_policy(self, table: Table) -> Table:
         """Return the table without rows that are to be omitted, or raise for the first row with a missing value."""
         if self._query.on_gap == "nan":
             return table
@@ -325,7 +325,7 @@ def _read_together(
     slots = [np.searchsorted(indices, every) for indices in wanted]
     needed = [np.isin(every, indices) for indices in wanted]
     place = {int(index): number for number, index in enumerate(every)}
-    for index, message in messages.each(place):
+    for index, message in messages.iterate_messages(place):
         number = place[index]
         for column_number, each in enumerate(columns):
             if needed[column_number][number]:

@@ -137,7 +137,7 @@ class Table:
 
         Missing floats are NaN; other numbers with missing values are masked arrays.
         """
-        return {"stamp_ns": self.stamps, **{name: _masked(value) for name, value in self._arrays.items()}}
+        return {"stamp_ns": self.stamps, **{name: _masked_array(value) for name, value in self._arrays.items()}}
 
     def to_arrow(self, *, flat: bool = False) -> Any:
         """Return a ``pyarrow.Table``, in which missing values are null.
@@ -178,7 +178,7 @@ class Table:
         columns = {"stamp_ns": self.stamps}
         for name, leaf, array, known in self.expanded():
             if array.dtype.kind in "iub" and not known.all():
-                nullable = pandas.array(array, dtype="boolean" if leaf.kind == "boolean" else _capital(array.dtype))
+                nullable = pandas.array(array, dtype="boolean" if leaf.kind == "boolean" else _capitalize(array.dtype))
                 nullable[~known] = pandas.NA
                 columns[name] = nullable
             else:
@@ -252,7 +252,7 @@ class Table:
         """
         if len(parts) == 1:
             return parts[0]
-        columns = [_joined(list(columns)) for columns in zip(*(part.columns for part in parts), strict=True)]
+        columns = [_join_columns(list(columns)) for columns in zip(*(part.columns for part in parts), strict=True)]
         stamps = np.concatenate([part.stamps for part in parts])
         return cls(stamps, columns, parts[0].has_validity, sum(part.omitted for part in parts))
 
@@ -284,7 +284,7 @@ class Table:
         return html_tables.section(repr(self), html_tables.table(names, rows, len(self), "row"))
 
 
-def _joined(columns: list[TableColumn]) -> TableColumn:
+def _join_columns(columns: list[TableColumn]) -> TableColumn:
     first = columns[0]
     values = [
         TableValue(
@@ -304,14 +304,14 @@ def _joined(columns: list[TableColumn]) -> TableColumn:
     )
 
 
-def _masked(value: TableValue) -> NDArray[Any]:
+def _masked_array(value: TableValue) -> NDArray[Any]:
     if value.array.dtype.kind in "iub" and not value.known.all():
         known = value.known if value.array.ndim == 1 else np.broadcast_to(value.known[:, None], value.array.shape)
         return np.ma.MaskedArray(value.array, mask=~known)
     return value.array
 
 
-def _capital(dtype: np.dtype[Any]) -> str:
+def _capitalize(dtype: np.dtype[Any]) -> str:
     """Return pandas's name of the integers that may be missing."""
     return f"{'UInt' if dtype.kind == 'u' else 'Int'}{8 * dtype.itemsize}"
 

@@ -26,11 +26,11 @@ if TYPE_CHECKING:
 
 __all__ = ["has_pose", "topic_poses"]
 
-_POSES = (("position", "orientation"), ("translation", "rotation"))
+_POSE_FIELDS = (("position", "orientation"), ("translation", "rotation"))
 _MAX_LEVELS = 4  # of messages around a pose; in Odometry there are two
-_NUMBERS = 7
-_LISTS = ("poses", "transforms")
-_COVARIANCE = 36
+_NUMBERS_PER_POSE = 7
+_LIST_FIELDS = ("poses", "transforms")
+_COVARIANCE_SIZE = 36
 
 _Path = tuple[str, ...]
 
@@ -69,8 +69,8 @@ def topic_poses(recording: Recording, source: FieldSource, report: Callable[[str
     if name := _list_of_poses(type(owner)):
         return _poses_of_list(messages, source.path, name, label, recording, report)
     path = _only_path(type(owner), label)
-    rows, frames = np.full((len(messages.samples), _NUMBERS + _COVARIANCE), np.nan), dict[str, str]()
-    for index, message in messages.each(range(len(messages.samples))):
+    rows, frames = np.full((len(messages.samples), _NUMBERS_PER_POSE + _COVARIANCE_SIZE), np.nan), dict[str, str]()
+    for index, message in messages.iterate_messages(range(len(messages.samples))):
         if message is not None:
             _read(message, (*source.path, *path), rows[index])
             frame, child = _frames(message)
@@ -91,10 +91,10 @@ def _read(message: Any, path: tuple[Any, ...], row: NDArray[np.float64]) -> None
         pose, around = at_path(message, path), at_path(message, path[:-1])
     except MissingElementError:
         return
-    row[:_NUMBERS] = _numbers(pose)
+    row[:_NUMBERS_PER_POSE] = _numbers(pose)
     covariance = getattr(around, "covariance", None)
-    if covariance is not None and len(covariance) == _COVARIANCE:
-        row[_NUMBERS:] = covariance
+    if covariance is not None and len(covariance) == _COVARIANCE_SIZE:
+        row[_NUMBERS_PER_POSE:] = covariance
 
 
 def _frames(message: Any) -> tuple[str, str]:
@@ -103,7 +103,7 @@ def _frames(message: Any) -> tuple[str, str]:
 
 
 def _numbers(pose: Any) -> tuple[float, ...]:
-    for linear, angular in _POSES:
+    for linear, angular in _POSE_FIELDS:
         if hasattr(pose, linear):
             p, q = getattr(pose, linear), getattr(pose, angular)
             return (p.x, p.y, p.z, q.x, q.y, q.z, q.w)
@@ -120,18 +120,18 @@ def _batch(
 ) -> Transform:
     """Return the valid poses as a trajectory."""
     with np.errstate(over="ignore"):
-        norms = np.linalg.norm(rows[:, 3:_NUMBERS], axis=1)
-    valid = np.isfinite(rows[:, :_NUMBERS]).all(axis=1) & (norms > 0) & np.isfinite(norms)
+        norms = np.linalg.norm(rows[:, 3:_NUMBERS_PER_POSE], axis=1)
+    valid = np.isfinite(rows[:, :_NUMBERS_PER_POSE]).all(axis=1) & (norms > 0) & np.isfinite(norms)
     if not valid.any():
         raise RecordingError(f"{label} has no valid pose", hint="All are NaN, or have quaternions of zeros.")
     if not valid.all():
         report(f"{label}: {count(int((~valid).sum()), 'pose')} with NaN or a zero quaternion skipped")
     kept = rows[valid]
-    covariances = kept[:, _NUMBERS:]
+    covariances = kept[:, _NUMBERS_PER_POSE:]
     has_covariance = np.isfinite(covariances).all() and covariances.any()
     return Transform(
         kept[:, :3],
-        kept[:, 3:_NUMBERS],
+        kept[:, 3:_NUMBERS_PER_POSE],
         target=frame or None,
         source=child or None,
         stamp=stamps[valid],
@@ -156,7 +156,7 @@ def _poses_of_list(
     report: Callable[[str], object],
 ) -> Transform:
     """Return the poses of the last message with a list, such as Path, each of which has a stamp of its own."""
-    for _, message in messages.each([len(messages.samples) - 1]):
+    for _, message in messages.iterate_messages([len(messages.samples) - 1]):
         owner = None if message is None else at_path(message, path)
         items = [] if owner is None else list(getattr(owner, name))
         if not items:
@@ -178,9 +178,9 @@ def _poses_of_list(
                 hint="Trajectories come from paths that a robot has driven.",
             )
         inner = _only_path(type(items[0]), label)
-        rows = np.full((len(items), _NUMBERS + _COVARIANCE), np.nan)
+        rows = np.full((len(items), _NUMBERS_PER_POSE + _COVARIANCE_SIZE), np.nan)
         for row, item in enumerate(items):
-            rows[row, :_NUMBERS] = _numbers(at_path(item, inner))
+            rows[row, :_NUMBERS_PER_POSE] = _numbers(at_path(item, inner))
         order = np.argsort(stamps, kind="stable")
         frame = _frames(message)[0] or _frames(items[0])[0]
         return _batch(rows[order], stamps[order], recording.frame(frame), "", label, report)
@@ -190,7 +190,7 @@ def _poses_of_list(
 def _list_of_poses(cls: Any) -> str:
     """Return the field of a message that is a list of poses; "" if there is none."""
     fields = class_fields(cls)
-    for name in _LISTS:
+    for name in _LIST_FIELDS:
         type_ = fields.get(name)
         if isinstance(type_, AbstractNestedType) and isinstance(type_.value_type, NamespacedType):
             return name
@@ -219,7 +219,7 @@ def _pose_paths(cls: Any) -> list[_Path]:
     level: list[tuple[_Path, Any]] = [((), cls)]
     for _ in range(_MAX_LEVELS):
         fields = [(path, class_fields(each)) for path, each in level]
-        if found := [path for path, names in fields if any(set(pair) <= set(names) for pair in _POSES)]:
+        if found := [path for path, names in fields if any(set(pair) <= set(names) for pair in _POSE_FIELDS)]:
             return found
         level = [
             ((*path, name), inner)

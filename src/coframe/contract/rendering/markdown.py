@@ -24,7 +24,7 @@ def as_markdown(verdicts: Sequence[Verdict]) -> str:
         "| recording | requirements met | verdict |",
         "|---|---|---|",
     ]
-    lines += [f"| {_cell(each.source)} | {_met(each)} | {_word(each)} |" for each in verdicts]
+    lines += [f"| {_cell(each.source)} | {_met_text(each)} | {_result_word(each)} |" for each in verdicts]
     problems = [
         f"| {_cell(verdict.source)} | {result.kind} | {_cell(result.subject)} | {_cell(problem)} |"
         for verdict in verdicts
@@ -42,11 +42,11 @@ def as_markdown(verdicts: Sequence[Verdict]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _met(verdict: Verdict) -> str:
+def _met_text(verdict: Verdict) -> str:
     return f"{len(verdict.results) - len(verdict.broken)} of {len(verdict.results)}" if verdict.results else ""
 
 
-def _word(verdict: Verdict) -> str:
+def _result_word(verdict: Verdict) -> str:
     return "unreadable" if verdict.unreadable else "kept" if verdict.is_kept else "**broken**"
 
 

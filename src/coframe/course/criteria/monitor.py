@@ -62,7 +62,7 @@ def check(task: Task) -> Sheet:
             "the node reports a transform that stopped",
             _names(stale, "end_effector") or _names(stale, "link1"),
             expected="a message with link1, link2 or end_effector within 3 s",
-            observed=_quoted(stale),
+            observed=_quote_messages(stale),
             cause="compare the newest stamp of each child with the clock in a timer",
             read=_READ,
         )
@@ -71,7 +71,7 @@ def check(task: Task) -> Sheet:
             "the node reports a frame with two parents",
             _names(reparented, "base_link"),
             expected="a message with base_link within 3 s",
-            observed=_quoted(reparented),
+            observed=_quote_messages(reparented),
             cause="remember the parent of each child, and report a different one",
             read=_READ,
         )
@@ -82,5 +82,5 @@ def _names(received: list[Received], frame: str) -> bool:
     return any(frame in each.message.data for each in received)
 
 
-def _quoted(received: list[Received]) -> str:
+def _quote_messages(received: list[Received]) -> str:
     return f"{received[-1].message.data[:80]!r}" if received else "no message"

@@ -62,11 +62,11 @@ def _has_rights(user: User, readable: Iterable[str], searchable: str) -> bool:
     code = 1
     try:
         become(user)
-        has_rights = os.access(searchable, os.X_OK) and all(os.access(path, _needed(path)) for path in readable)
+        has_rights = os.access(searchable, os.X_OK) and all(os.access(path, _required_mode(path)) for path in readable)
         code = 0 if has_rights else 1
     finally:
         os._exit(code)
 
 
-def _needed(path: str) -> int:
+def _required_mode(path: str) -> int:
     return os.R_OK | os.X_OK if os.path.isdir(path) else os.R_OK  # noqa: PTH112 - without other imports

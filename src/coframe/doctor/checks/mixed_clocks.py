@@ -42,12 +42,14 @@ def find(observation: Observation) -> Iterator[Finding]:
         by_clock.setdefault(clock, []).append(name)
     usual = observation.usual_clock
     for clock in sorted(by_clock.keys() - {usual}, key=lambda clock: (-len(by_clock[clock]), clock)):
-        yield _finding(observation, usual, by_clock[usual], clock, by_clock[clock])
+        yield _make_finding(observation, usual, by_clock[usual], clock, by_clock[clock])
     if by_clock:
         yield from _find_static_offsets(observation, usual)
 
 
-def _finding(observation: Observation, usual: str, usual_names: list[str], clock: str, names: list[str]) -> Finding:
+def _make_finding(
+    observation: Observation, usual: str, usual_names: list[str], clock: str, names: list[str]
+) -> Finding:
     edges = [edge for edge in observation.dynamic if edge.name in names]
     sensors = [sensor for sensor in observation.sensors if sensor.topic in names]
     frames = {name for edge in edges for name in edge.key} | {sensor.frame for sensor in sensors}

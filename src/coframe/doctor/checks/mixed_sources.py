@@ -55,14 +55,16 @@ def find(observation: Observation) -> Iterator[Finding]:
             found.add(topic)
             names = join_names(f"{sensor.frame!r} ({count(len(sensor.stamp), 'message')})" for sensor in sensors)
             drops = tuple(f"drop-publisher {topic}@{sensor.frame}" for sensor in sensors)
-            yield _finding(topic, f"the messages alternate between {len(sensors)} frames: {names}", nodes, drops)
+            yield _make_finding(topic, f"the messages alternate between {len(sensors)} frames: {names}", nodes, drops)
         elif len(nodes) > 1 and _do_alternate(sensors, [_nodes(sensor, nodes) for sensor in sensors]):
             found.add(topic)
-            yield _finding(topic, f"the messages alternate between {len(nodes)} publishers: {join_names(nodes)}", nodes)
+            yield _make_finding(
+                topic, f"the messages alternate between {len(nodes)} publishers: {join_names(nodes)}", nodes
+            )
     for one in observation.positions:
         if one.topic not in found and (distance := _distance(one)):
             text = f"the positions jump back and forth between two tracks, {distance:.3g} m apart"
-            yield _finding(one.topic, text)
+            yield _make_finding(one.topic, text)
 
 
 def _nodes(sensor: Sensor, nodes: tuple[str, ...]) -> NDArray[np.int64]:
@@ -105,7 +107,7 @@ def _track_distance(points: NDArray[np.float64]) -> float:
     return distance if distance > max(_MIN_DISTANCE_RATIO * step, _MIN_DISTANCE) else 0.0
 
 
-def _finding(topic: str, text: str, publishers: tuple[str, ...] = (), choices: tuple[str, ...] = ()) -> Finding:
+def _make_finding(topic: str, text: str, publishers: tuple[str, ...] = (), choices: tuple[str, ...] = ()) -> Finding:
     return Finding(
         code=CODE, severity=Severity.WARNING, text=f"{text}: the topic may have two sources", fix=_FIX, topic=topic,
         publishers=publishers, choices=choices,

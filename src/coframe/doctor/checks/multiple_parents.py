@@ -32,10 +32,10 @@ def find(observation: Observation) -> Iterator[Finding]:
         by_child.setdefault(edge.child, []).append(edge)
     for child, edges in by_child.items():
         if len({edge.parent for edge in edges}) > 1:
-            yield _finding(child, edges)
+            yield _make_finding(child, edges)
 
 
-def _finding(child: str, edges: list[Edge]) -> Finding:
+def _make_finding(child: str, edges: list[Edge]) -> Finding:
     changes = _changes(edges)
     disagree = changes >= _CHANGES or any(edge.static for edge in edges)
     parents = "; ".join(f"{edge.parent!r} {times(edge.count)} ({_source_text(edge)})" for edge in edges)

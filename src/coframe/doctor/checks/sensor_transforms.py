@@ -50,7 +50,7 @@ def _unknown_frame_finding(observation: Observation, frame: str, sensors: list[S
     similar = similar_frames(frame, observation.frames)
     publishers = tuple(dict.fromkeys(sensor.publisher for sensor in sensors if sensor.publisher))
     messages = sum(len(sensor.stamp) for sensor in sensors)
-    repairs = (rename_frame(*_misspelled(observation, frame, similar[0])),) if similar else ()
+    repairs = (rename_frame(*_guess_misspelled(observation, frame, similar[0])),) if similar else ()
     return Finding(
         code=CODE,
         severity=Severity.WARNING,
@@ -77,7 +77,7 @@ def _mounts(observation: Observation, frame: str) -> tuple[str, ...]:
     return (set_static((bases or list(observation.frames) or ["base_link"])[-1], frame),)
 
 
-def _misspelled(observation: Observation, frame: str, similar: str) -> tuple[str, str]:
+def _guess_misspelled(observation: Observation, frame: str, similar: str) -> tuple[str, str]:
     """Return which of two names is probably misspelled, and the other one.
 
     The name of a link in a robot description is right, and then one with a usual ending.
@@ -93,7 +93,7 @@ def _same_name_advice(observation: Observation, frame: str, similar: str) -> str
     Either of the two may be misspelled. A name with the usual ending is probably the right one.
     """
     in_messages = f"In the node of the sensor: msg.header.frame_id = {similar!r}"
-    if _misspelled(observation, frame, similar)[0] == frame:
+    if _guess_misspelled(observation, frame, similar)[0] == frame:
         return in_messages
     nodes = sorted({node for edge in observation.edges if edge.child == similar for node in edge.publishers})
     publisher = f" ({join_names(nodes)})" if nodes else ""

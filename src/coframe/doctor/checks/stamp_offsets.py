@@ -10,7 +10,7 @@ import numpy as np
 from coframe._output.formatting import duration
 from coframe.doctor._finding import Finding, Severity
 from coframe.doctor._rules import shift
-from coframe.doctor.wrong_stamps import AHEAD, MIN_MESSAGES, is_ahead, is_ahead_by_design, is_behind
+from coframe.doctor.wrong_stamps import MIN_LEAD, MIN_MESSAGES, is_ahead, is_ahead_by_design, is_behind
 from coframe.time import MILLISECOND
 
 if TYPE_CHECKING:
@@ -77,7 +77,7 @@ def _unset_stamps(edge: Edge) -> Finding:
 def _stamps_ahead(edge: Edge, lags: NDArray[np.int64], offset: ClockOffset) -> Finding:
     most = -int(lags.min())
     usual = is_ahead_by_design(edge, lags)
-    row = int(np.argmax(lags < -AHEAD))
+    row = int(np.argmax(lags < -MIN_LEAD))
     return Finding(
         code=CODE,
         severity=Severity.NOTE if usual else Severity.WARNING,

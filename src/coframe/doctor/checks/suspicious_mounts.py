@@ -66,7 +66,7 @@ def _find_degrees_as_radians(edge: Edge) -> Iterator[Finding]:
         for name, axis, angle in zip(("roll", "pitch", "yaw"), "xyz", triple.tolist(), strict=True):
             for number in (sign * size for size in _ROUND_DEGREES for sign in (1, -1)):
                 if angle != 0.0 and abs((angle - number + pi) % (2 * pi) - pi) < limit:
-                    yield _finding(
+                    yield _make_finding(
                         edge,
                         f"rotated by {degrees(angle) % 360:.1f} degrees about {axis}, which is {name} = {number} "
                         f"radians: was {number} degrees intended?",
@@ -89,12 +89,12 @@ def _find_other_units(edge: Edge, mounts: list[Edge]) -> Iterator[Finding]:
         return
     if edge.length > _MIN_IMPOSSIBLE_DISTANCE:
         distance = f"the frames are {edge.length:.4g} m apart"
-        yield _finding(edge, distance, "Check the values of the translation, which must be in meters.")
+        yield _make_finding(edge, distance, "Check the values of the translation, which must be in meters.")
         return
     units = _likely_units(edge, mounts)
     x, y, z = (edge.values[-1, :3] / units[0][1]).tolist()
     intended = " or ".join(f"{edge.length:.4g} {unit}" for unit, _ in units)
-    yield _finding(
+    yield _make_finding(
         edge,
         f"the frames are {edge.length:.4g} m apart: was {intended} intended?",
         f"Use meters: --x {x:.6g} --y {y:.6g} --z {z:.6g}" + (f" (for {units[0][0]})." if len(units) > 1 else "."),
@@ -129,7 +129,7 @@ def _wrong_optical_axes(observation: Observation, edge: Edge) -> Iterator[Findin
         turned = rotation_text(found.pose[3:])
         command = static_command(*found.edge.key, found.pose.tolist())
         fix = f"{found.fix} The rotation is {turned}: `{command}`.".lstrip()
-        yield _finding(found.edge, found.text, fix, pose=found.pose)
+        yield _make_finding(found.edge, found.text, fix, pose=found.pose)
 
 
 def _find_below_ground(observation: Observation) -> Iterator[Finding]:
@@ -160,7 +160,7 @@ def _below_ground_finding(mount: Edge) -> Iterator[Finding]:
     mirrored = pose[0] * np.array([1.0, 1.0, -1.0, 1.0, 1.0, 1.0, 1.0])
     inverted_text = f"the inverse of the transform is {inverse[2]:.3g} m above it; " if inverse[2] > 0.0 else ""
     right = inverse if inverse[2] > 0.0 and mount.angle > _MIN_ROTATION else mirrored
-    yield _finding(
+    yield _make_finding(
         mount,
         f"{mount.child!r}, the frame of a camera or lidar, is {-mount.values[-1, 2]:.3g} m below {mount.parent!r}, "
         f"which is on the ground: {inverted_text}with the other sign of z it is {mirrored[2]:.3g} m above it",
@@ -172,7 +172,7 @@ def _below_ground_finding(mount: Edge) -> Iterator[Finding]:
     )
 
 
-def _finding(
+def _make_finding(
     edge: Edge,
     text: str,
     fix: str,

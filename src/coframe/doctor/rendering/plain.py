@@ -25,7 +25,7 @@ def as_data(report: Report) -> dict[str, Any]:
         "transforms": len(seen.transforms),
         "frames": list(seen.frames),
         "trees": {root: list(frames) for root, frames in seen.trees.items()},
-        "findings": [_finding(finding) for finding in report.findings],
+        "findings": [_finding_data(finding) for finding in report.findings],
         "sensors": [
             {
                 "topic": sensor.topic,
@@ -51,7 +51,7 @@ def as_data(report: Report) -> dict[str, Any]:
     }
 
 
-def _finding(finding: Finding) -> dict[str, Any]:
+def _finding_data(finding: Finding) -> dict[str, Any]:
     return {
         "code": finding.code,
         "severity": str(finding.severity),
@@ -69,5 +69,5 @@ def _finding(finding: Finding) -> dict[str, Any]:
         "fix": finding.fix,
         "repairs": list(finding.repairs),
         "choices": list(finding.choices),
-        "explains": [_finding(effect) for effect in finding.explains],
+        "explains": [_finding_data(effect) for effect in finding.explains],
     }

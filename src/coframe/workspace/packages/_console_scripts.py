@@ -125,7 +125,7 @@ def _setup_py(text: str) -> PythonPackage:
         if isinstance(statement, ast.Assign) and isinstance(statement.targets[0], ast.Name):
             names[statement.targets[0].id] = value_of(statement.value, names)
     for call in ast.walk(tree):
-        if isinstance(call, ast.Call) and _called(call.func) == "setup":
+        if isinstance(call, ast.Call) and _called_name(call.func) == "setup":
             arguments = {each.arg: value_of(each.value, names) for each in call.keywords if each.arg}
             return _from_setup_arguments(arguments)
     return PythonPackage({})
@@ -165,7 +165,7 @@ def _is_short(part: Any) -> bool:
     return isinstance(part, str) or (isinstance(part, int) and part.bit_length() <= 64)
 
 
-def _called(function: ast.expr) -> str:
+def _called_name(function: ast.expr) -> str:
     return function.id if isinstance(function, ast.Name) else getattr(function, "attr", "")
 
 

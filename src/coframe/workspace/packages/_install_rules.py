@@ -106,7 +106,7 @@ def _of_cmake(package: Path, name: str) -> Iterator[tuple[str, Path]]:
         length += sum(len(variables.get(each, "")) for each in _VARIABLE.findall(call[2]))
         if length > _console_scripts.MAX_BYTES:  # A few lines can double a variable any number of times.
             return
-        given = [_expanded(quoted or bare, variables) for quoted, bare in _WORD.findall(call[2])]
+        given = [_expand_variables(quoted or bare, variables) for quoted, bare in _WORD.findall(call[2])]
         words = [word for each in given for word in each.split(";") if word]
         command = call[1].lower()
         if command == "install":
@@ -114,14 +114,14 @@ def _of_cmake(package: Path, name: str) -> Iterator[tuple[str, Path]]:
         elif command == "set" and words:
             variables[words[0]] = ";".join(words[1:])
         elif words[:1] in (["GLOB"], ["GLOB_RECURSE"]) and len(words) > 2:
-            variables[words[1]] = _globbed(words, search)
+            variables[words[1]] = _glob_files(words, search)
 
 
-def _expanded(word: str, variables: dict[str, str]) -> str:
+def _expand_variables(word: str, variables: dict[str, str]) -> str:
     return _VARIABLE.sub(lambda match: variables.get(match[1], match[0]), word)
 
 
-def _globbed(words: list[str], search: _Search) -> str:
+def _glob_files(words: list[str], search: _Search) -> str:
     """Return the files that ``file(GLOB NAME PATTERN...)`` finds, separated by semicolons."""
     found: list[str] = []
     for word in words[2:]:
@@ -164,7 +164,7 @@ def _of_tree(tree: ast.Module, package: Path, name: str) -> Iterator[tuple[str, 
             names[statement.targets[0].id] = _value(statement.value, names, search)
         elif isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Call):
             _append(statement.value, names, search)
-    calls = (each for each in ast.walk(tree) if isinstance(each, ast.Call) and _called(each) == "setup")
+    calls = (each for each in ast.walk(tree) if isinstance(each, ast.Call) and _called_name(each) == "setup")
     keywords = (keyword for call in calls for keyword in call.keywords if keyword.arg == "data_files")
     for keyword in keywords:
         for rule in _value(keyword.value, names, search) or ():
@@ -181,13 +181,13 @@ def _append(call: ast.Call, names: dict[str, Any], search: _Search) -> None:
     if not isinstance(values, list) or len(call.args) != 1:
         return
     value = _value(call.args[0], names, search)
-    if _called(call) == "append":
+    if _called_name(call) == "append":
         values.append(value)
-    elif _called(call) == "extend" and isinstance(value, list) and short([*values, *value]):
+    elif _called_name(call) == "extend" and isinstance(value, list) and short([*values, *value]):
         values.extend(value)
 
 
-def _called(call: ast.Call) -> str:
+def _called_name(call: ast.Call) -> str:
     return call.func.id if isinstance(call.func, ast.Name) else getattr(call.func, "attr", "")
 
 
@@ -200,9 +200,9 @@ def _value(node: ast.expr, names: dict[str, Any], search: _Search) -> Any:
         return short(left + right) if type(left) is type(right) and isinstance(left, str | list) else None
     if isinstance(node, ast.Call) and node.args:
         arguments = [_value(argument, names, search) for argument in node.args]
-        if _called(node) == "join" and all(isinstance(argument, str) for argument in arguments):
+        if _called_name(node) == "join" and all(isinstance(argument, str) for argument in arguments):
             return short(str(PurePosixPath(*arguments)))
-        if _called(node) in {"glob", "iglob"} and isinstance(arguments[0], str):
+        if _called_name(node) in {"glob", "iglob"} and isinstance(arguments[0], str):
             return search.matches(arguments[0])
         return None
     return _console_scripts.value_of(node, names)

@@ -243,7 +243,7 @@ class ExecuteLocal(Action):
         return None
 
     def __register_handlers(self, context: LaunchContext) -> None:
-        def targeted(event: Event, kind: type[ProcessTargetedEvent]) -> bool:
+        def is_target(event: Event, kind: type[ProcessTargetedEvent]) -> bool:
             return isinstance(event, kind) and event.process_matcher(self)
 
         def handler(matcher: Callable[[Event], bool], react: Callable[[Any, LaunchContext], None]) -> EventHandler:
@@ -251,9 +251,11 @@ class ExecuteLocal(Action):
             return EventHandler(matcher=matcher, entities=action)
 
         self.__handlers = [
-            handler(lambda event: targeted(event, ShutdownProcess), lambda _, context: self._shutdown_process(context)),
-            handler(lambda event: targeted(event, SignalProcess), lambda event, _: self.__signal(event.signal)),
-            handler(lambda event: targeted(event, ProcessStdin), lambda event, _: self.__write(event.text)),
+            handler(
+                lambda event: is_target(event, ShutdownProcess), lambda _, context: self._shutdown_process(context)
+            ),
+            handler(lambda event: is_target(event, SignalProcess), lambda event, _: self.__signal(event.signal)),
+            handler(lambda event: is_target(event, ProcessStdin), lambda event, _: self.__write(event.text)),
             handler(lambda event: event is self.__end, lambda _, context: self.__clean_up(context)),
             OnShutdown(on_shutdown=lambda event, context: self._shutdown_process(context, quiet=event.due_to_sigint)),
         ]

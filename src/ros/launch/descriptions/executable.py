@@ -52,9 +52,9 @@ class Executable:
     ) -> None:
         self.__cmd = [normalize_to_list_of_substitutions(word) for word in cmd]
         self.__cmd += [normalize_to_list_of_substitutions(word) for word in arguments or ()]
-        self.__prefix = _normalized(prefix)
-        self.__name = _normalized(name)
-        self.__cwd = _normalized(cwd)
+        self.__prefix = _normalize(prefix)
+        self.__name = _normalize(name)
+        self.__cwd = _normalize(cwd)
         self.__env = _normalized_pairs(env)
         self.__additional_env = _normalized_pairs(additional_env)
         self.__final_cmd: list[str] | None = None
@@ -144,7 +144,7 @@ def _program_name(word: str) -> str:
     return PurePath(parts[0]).name
 
 
-def _normalized(subs: SomeSubstitutionsType | None) -> list[Substitution] | None:
+def _normalize(subs: SomeSubstitutionsType | None) -> list[Substitution] | None:
     return None if subs is None else normalize_to_list_of_substitutions(subs)
 
 

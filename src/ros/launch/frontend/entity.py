@@ -59,7 +59,7 @@ def is_list_of_entities(data_type: Any) -> bool:
     return data_type is list or any(isinstance(each, type) and issubclass(each, Entity) for each in arguments)
 
 
-def missing(name: str, type_name: str, known: Iterable[str]) -> AttributeError:
+def missing_attribute_error(name: str, type_name: str, known: Iterable[str]) -> AttributeError:
     """Return the error for a missing attribute."""
     there = ", ".join(known)
     return AttributeError(f"Attribute '{name}' not found in '{type_name}'; attributes there: {there or 'none'}")

@@ -80,11 +80,11 @@ class _Reader:
                 self.position += 1
                 return _make(match[1], arguments)
             if character in "\"'":
-                arguments.append(self._quoted(character, depth))
+                arguments.append(self._parse_quoted(character, depth))
             else:
                 arguments.append(self.parts(end=" \t\r\n)", depth=depth))
 
-    def _quoted(self, quote: str, depth: int) -> list[Substitution]:
+    def _parse_quoted(self, quote: str, depth: int) -> list[Substitution]:
         self.position += 1
         parts = self.parts(end=quote, depth=depth)
         if self.position >= len(self.text):

@@ -28,8 +28,8 @@ class EqualsSubstitution(Substitution):
     """Whether two strings are equal, also as booleans or numbers."""
 
     def __init__(self, left: Any, right: Any) -> None:
-        self.__left = _normalized(left)
-        self.__right = _normalized(right)
+        self.__left = _normalize(left)
+        self.__right = _normalize(right)
 
     @classmethod
     def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[Substitution], dict[str, Any]]:
@@ -77,7 +77,7 @@ class NotEqualsSubstitution(EqualsSubstitution):
         return "false" if self._are_equal(context) else "true"
 
 
-def _normalized(value: Any) -> list[Substitution]:
+def _normalize(value: Any) -> list[Substitution]:
     if value is None or isinstance(value, bool | int | float):
         return normalize_to_list_of_substitutions("" if value is None else str(value))
     return normalize_to_list_of_substitutions(value)

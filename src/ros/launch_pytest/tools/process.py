@@ -217,7 +217,7 @@ def _has_ended(action: ExecuteProcess) -> Callable[[], bool]:
     return lambda: action.return_code is not None
 
 
-class _EventsOf(BaseEventHandler):
+class _ProcessEventHandler(BaseEventHandler):
     """Calls a function at each event of a process."""
 
     def __init__(self, action: ExecuteProcess, notify: Callable[[], object]) -> None:
@@ -235,10 +235,10 @@ async def _wait(
 ) -> bool:
     """Check a condition at each event of a process until it holds, and return whether it does."""
     changed = asyncio.Event()
-    handler = _EventsOf(action, changed.set)
+    handler = _ProcessEventHandler(action, changed.set)
     context.register_event_handler(handler)
     try:
-        await asyncio.wait_for(_until(condition, changed), timeout)
+        await asyncio.wait_for(_wait_until(condition, changed), timeout)
     except asyncio.TimeoutError:
         return condition()
     finally:
@@ -246,7 +246,7 @@ async def _wait(
     return True
 
 
-async def _until(condition: Callable[[], bool], changed: asyncio.Event) -> None:
+async def _wait_until(condition: Callable[[], bool], changed: asyncio.Event) -> None:
     while not condition():
         await changed.wait()
         changed.clear()

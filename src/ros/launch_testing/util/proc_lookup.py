@@ -54,12 +54,13 @@ def resolveProcesses(
         )
     if not found:
         raise NoMatchingProcessException(
-            f"Did not find any process matching {_described(process, cmd_args)}. Processes: {_listed(known)}"
+            f"Did not find any process matching {_describe_process(process, cmd_args)}. "
+            f"Processes: {_list_processes(known)}"
         )
     if isinstance(process, str) and strict_proc_matching and len(found) > 1:
         raise NoMatchingProcessException(
-            f"Found several processes matching {_described(process, cmd_args)}: {_listed(found)}. Pass the action, a "
-            "longer part of the name, cmd_args, or strict_proc_matching=False."
+            f"Found several processes matching {_describe_process(process, cmd_args)}: {_list_processes(found)}. "
+            "Pass the action, a longer part of the name, cmd_args, or strict_proc_matching=False."
         )
     return found
 
@@ -83,7 +84,7 @@ def _has_arguments(process: ExecuteLocal, wanted: Any) -> bool:
     return all(word in arguments for word in words)
 
 
-def _described(process: Any, arguments: Any) -> str:
+def _describe_process(process: Any, arguments: Any) -> str:
     name = _name(process) if isinstance(process, ExecuteLocal) else process
     text = "any name" if name is None else f"name {name!r}"
     if arguments is NO_CMD_ARGS:
@@ -91,5 +92,5 @@ def _described(process: Any, arguments: Any) -> str:
     return text if arguments is None else f"{text} and arguments {arguments!r}"
 
 
-def _listed(processes: list[ExecuteLocal]) -> str:
+def _list_processes(processes: list[ExecuteLocal]) -> str:
     return ", ".join(" ".join([_name(each), *_arguments(each)]) for each in processes) or "none"

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 __all__ = ["EnableRmwIsolation"]
 
-_DOMAINS = 101  # the number of domains whose ports no system takes for other sockets
+_DOMAIN_COUNT = 101  # the number of domains whose ports no system takes for other sockets
 
 
 class EnableRmwIsolation(Action):
@@ -24,6 +24,6 @@ class EnableRmwIsolation(Action):
 
     def execute(self, context: LaunchContext) -> list[Any] | None:
         """Set the environment variables."""
-        context.environment.setdefault("ROS_DOMAIN_ID", str(1 + os.getpid() % _DOMAINS))
+        context.environment.setdefault("ROS_DOMAIN_ID", str(1 + os.getpid() % _DOMAIN_COUNT))
         context.environment["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
         return None

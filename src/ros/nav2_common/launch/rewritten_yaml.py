@@ -46,9 +46,9 @@ class RewrittenYaml(Substitution):
         value_rewrites: Mapping[str, SomeSubstitutionsType] | None = None,
     ) -> None:
         self.__source_file = normalize_to_list_of_substitutions(source_file)
-        self.__param_rewrites = _normalized(param_rewrites)
-        self.__key_rewrites = _normalized(key_rewrites or {})
-        self.__value_rewrites = _normalized(value_rewrites or {})
+        self.__param_rewrites = _normalize_pairs(param_rewrites)
+        self.__key_rewrites = _normalize_pairs(key_rewrites or {})
+        self.__value_rewrites = _normalize_pairs(value_rewrites or {})
         self.__root_key = None if root_key is None else normalize_to_list_of_substitutions(root_key)
         self.__convert_types = convert_types
 
@@ -65,7 +65,8 @@ class RewrittenYaml(Substitution):
         """Return the path of the copy."""
         data: Any = load_yaml(read_regular_text(perform_substitutions(context, self.__source_file), MAX_BYTES)) or {}
         rewrites = {
-            key: self._converted(perform_substitutions(context, value)) for key, value in self.__param_rewrites.items()
+            key: self._convert_text(perform_substitutions(context, value))
+            for key, value in self.__param_rewrites.items()
         }
         _rewrite_everywhere(data, rewrites)
         paths = set(_paths(data))
@@ -76,12 +77,15 @@ class RewrittenYaml(Substitution):
         _rewrite_keys(data, {key: perform_substitutions(context, new) for key, new in self.__key_rewrites.items()})
         _rewrite_values(
             data,
-            {old: self._converted(perform_substitutions(context, new)) for old, new in self.__value_rewrites.items()},
+            {
+                old: self._convert_text(perform_substitutions(context, new))
+                for old, new in self.__value_rewrites.items()
+            },
         )
         root = "" if self.__root_key is None else perform_substitutions(context, self.__root_key)
         return str(write_temporary_file(dump_yaml({root: data} if root else data)))
 
-    def _converted(self, text: str) -> Any:
+    def _convert_text(self, text: str) -> Any:
         if self.__convert_types:
             try:
                 return float(text) if "." in text else int(text)
@@ -90,7 +94,7 @@ class RewrittenYaml(Substitution):
         return {"true": True, "false": False}.get(text.lower(), text)
 
 
-def _normalized(pairs: Mapping[str, SomeSubstitutionsType]) -> dict[str, list[Substitution]]:
+def _normalize_pairs(pairs: Mapping[str, SomeSubstitutionsType]) -> dict[str, list[Substitution]]:
     return {key: normalize_to_list_of_substitutions(value) for key, value in pairs.items()}
 
 

@@ -249,7 +249,7 @@ class AsyncNode(Node):
         assert self.__tasks is not None
         if not isinstance(entity.callback_group, ReentrantCallbackGroup):
             self.__busy.add(entity)
-        task = self.__tasks.create_task(_awaited(result))
+        task = self.__tasks.create_task(_await(result))
         self.__running.add(task)
         task.add_done_callback(lambda done: self.__on_end(entity, done))
 
@@ -375,7 +375,7 @@ def _group(*, concurrent: bool) -> CallbackGroup:
     return ReentrantCallbackGroup() if concurrent else MutuallyExclusiveCallbackGroup()
 
 
-async def _awaited(awaitable: Awaitable[Any]) -> Any:
+async def _await(awaitable: Awaitable[Any]) -> Any:
     return await awaitable
 
 

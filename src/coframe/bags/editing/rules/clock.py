@@ -72,7 +72,7 @@ class Clock(Rule):
 
         def convert(message: EditedMessage) -> bool:
             received = message.received
-            new, changed = stamps.change(message.data, lambda stamp: self._converted(stamp, received))
+            new, changed = stamps.change(message.data, lambda stamp: self._convert_stamp(stamp, received))
             if changed:
                 message.data = new
                 self.changes += changed
@@ -85,7 +85,7 @@ class Clock(Rule):
     def _convert_transforms(self, message: EditedMessage) -> bool:
         transforms, changed = message.transforms(), 0
         for one in transforms:
-            new = self._converted(one.stamp, message.received) if one.stamp else 0
+            new = self._convert_stamp(one.stamp, message.received) if one.stamp else 0
             changed += new != one.stamp
             one.stamp = new
         if changed:
@@ -102,7 +102,7 @@ class Clock(Rule):
         if received > first[0] and simulated >= first[1]:
             self._rate = (simulated - first[1]) / (received - first[0])
 
-    def _converted(self, stamp: int, received: int) -> int:
+    def _convert_stamp(self, stamp: int, received: int) -> int:
         now = self._simulated + round((received - self._received) * self._rate)
         is_wall, is_simulated = abs(received - stamp) < SAME_CLOCK, abs(now - stamp) < MINUTE
         if is_simulated in {is_wall, self._to_sim}:

@@ -37,7 +37,7 @@ class Dedupe(Rule):
     def __init__(self, text: str = "") -> None:
         super().__init__(text)
         self._seen: OrderedDict[Hashable, OrderedDict[Hashable, Hashable]] = OrderedDict()
-        self._differing = 0
+        self._different_count = 0
 
     def step(self, topic: EditedTopic) -> Step | None:
         """Return the function that drops what repeats an earlier message."""
@@ -77,7 +77,7 @@ class Dedupe(Rule):
         if len(self._seen) > _MAX_EDGES:
             self._seen.popitem(last=False)
         if what in seen:
-            self._differing += seen[what] != value
+            self._different_count += seen[what] != value
             return seen[what] != value
         seen[what] = value
         if len(seen) > MAX_REMEMBERED:
@@ -86,8 +86,8 @@ class Dedupe(Rule):
 
     def remarks(self) -> Iterator[str]:
         """Yield how many transforms contradict an earlier one."""
-        if self._differing:
+        if self._different_count:
             yield (
-                f"dedupe: {count(self._differing, 'transform')} with the stamp of another one, but with another pose, "
+                f"dedupe: {count(self._different_count, 'transform')} with the stamp of another one, but another pose, "
                 "stayed: the rule drop-publisher removes one of two publishers"
             )

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 __all__ = ["DropPublisher"]
 
 _EDGE = re.compile(r"(?P<parent>.+?)\s*->\s*(?P<child>[^@#]+?)\s*(?:#(?P<track>[12])|@(?P<topic>\S+))?")
-_SEEDED = 400  # transforms from which the two tracks are found
-_FIRST = 10  # of them, among which both publishers occur
+_SEED_COUNT = 400  # transforms from which the two tracks are found
+_START_COUNT = 10  # of them, among which both publishers occur
 _MIN_SEEDED = 4
 _MIN_RATIO = 2.0  # distance of the two tracks to the usual step on one
 
@@ -70,7 +70,7 @@ class DropPublisher(Rule):
         for topic, _, message in survey.messages(lambda one: one.has_transforms and not one.is_static):
             del topic
             poses += [_pose(one, message) for one in message.transforms() if self._is_wanted(one)]
-            if len(poses) >= _SEEDED:
+            if len(poses) >= _SEED_COUNT:
                 break
         self._ends = _tracks(poses)
         if not self._ends:
@@ -156,7 +156,7 @@ def _tracks(poses: list[NDArray[np.float64]]) -> list[NDArray[np.float64]]:
     if len(poses) < _MIN_SEEDED:
         return []
     first = poses[0]
-    farthest = max(range(len(poses[:_FIRST])), key=lambda number: _distance(poses[number], first))
+    farthest = max(range(len(poses[:_START_COUNT])), key=lambda number: _distance(poses[number], first))
     seeds = [first, poses[farthest]]
     ends, steps, apart = list(seeds), [], []
     for pose in poses:

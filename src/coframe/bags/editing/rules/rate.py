@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Rate"]
 
-_SLACK = 0.1  # of a period by which a message may come early: recorded periods vary
+_PERIOD_TOLERANCE = 0.1  # of a period by which a message may come early: recorded periods vary
 _MAX_EDGES = 100_000
 
 
@@ -46,7 +46,7 @@ class Rate(Rule):
         if not 1e-6 < hertz < 1e9:
             raise EditError(f"{text[:60]!r}: {rate[:30]!r} is not a rate in Hz, such as 10 or 0.5")
         self._period = SECOND / hertz
-        self._due: dict[Hashable, float] = {}
+        self._next_due: dict[Hashable, float] = {}
 
     def step(self, topic: EditedTopic) -> Step | None:
         """Return the function that drops messages that come too early."""
@@ -55,12 +55,12 @@ class Rate(Rule):
         return self._thin_transforms if topic.has_transforms else self._thin
 
     def _is_due(self, key: Hashable, now: int) -> bool:
-        due = self._due.get(key)
-        if due is not None and due - 2.0 * self._period < now < due - _SLACK * self._period:
+        due = self._next_due.get(key)
+        if due is not None and due - 2.0 * self._period < now < due - _PERIOD_TOLERANCE * self._period:
             return False
         is_regular = due is not None and abs(now - due) < self._period
-        if len(self._due) < _MAX_EDGES or due is not None:
-            self._due[key] = (due if is_regular and due is not None else now) + self._period
+        if len(self._next_due) < _MAX_EDGES or due is not None:
+            self._next_due[key] = (due if is_regular and due is not None else now) + self._period
         return True
 
     def _thin(self, message: EditedMessage) -> bool:

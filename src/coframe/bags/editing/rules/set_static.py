@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = ["SetStatic"]
 
-_NUMBERS = (8, 9)  # words: parent, child, x, y, z and three angles or a quaternion
+_WORD_COUNTS = (8, 9)  # words: parent, child, x, y, z and three angles or a quaternion
 
 
 class SetStatic(Rule):
@@ -48,7 +48,7 @@ class SetStatic(Rule):
         self._topic = TF_STATIC_TOPIC
         self._file: Path | None = None
         self._names: dict[str, str] = {}
-        if len(words) in _NUMBERS and not all("=" in word for word in words[1:]):
+        if len(words) in _WORD_COUNTS and not all("=" in word for word in words[1:]):
             parent, child = (word.removeprefix("/") for word in words[:2])
             if not parent or not child or parent == child:
                 raise EditError(f"{text[:60]!r}: the parent and the child must be two frames")

@@ -43,7 +43,7 @@ class Shift(Rule):
         parent, self._is_edge, child = (part.strip() for part in self._subject.partition("->"))
         self._parent, self._child = (name.removeprefix("/").encode() for name in (parent, child or parent))
         self._is_topic = self._is_node = False
-        self._refused = 0
+        self._refused_count = 0
 
     def prepare(self, survey: Survey) -> None:
         """Find out whether the name is that of a topic, a node or a frame."""
@@ -59,10 +59,10 @@ class Shift(Rule):
             return self._shift_child
         return None if self._is_edge else self._shift_messages_of_frame(topic)
 
-    def _new(self, stamp: int) -> int:
+    def _new_stamp(self, stamp: int) -> int:
         if 0 <= stamp + self._offset < MAX_STAMP:
             return stamp + self._offset
-        self._refused += 1
+        self._refused_count += 1
         return stamp
 
     def _shift_all(self, topic: EditedTopic) -> Step | None:
@@ -71,7 +71,7 @@ class Shift(Rule):
             return None
 
         def step(message: EditedMessage) -> bool:
-            new, changed = stamps.change(message.data, self._new)
+            new, changed = stamps.change(message.data, self._new_stamp)
             if changed:
                 message.data = new
                 self.changes += changed
@@ -88,7 +88,7 @@ class Shift(Rule):
                 continue
             if self._is_edge and one.parent.removeprefix(b"/") != self._parent:
                 continue
-            new = self._new(one.stamp)
+            new = self._new_stamp(one.stamp)
             changed += new != one.stamp
             one.stamp = new
         if changed:
@@ -105,7 +105,7 @@ class Shift(Rule):
         def step(message: EditedMessage) -> bool:
             data = message.data
             if self._child in data and frames.of_header(data).removeprefix("/") == wanted:
-                message.data, changed = stamps.change(data, self._new)
+                message.data, changed = stamps.change(data, self._new_stamp)
                 self.changes += changed
             return True
 
@@ -113,8 +113,8 @@ class Shift(Rule):
 
     def remarks(self) -> Iterator[str]:
         """Yield how many stamps cannot be shifted."""
-        if self._refused:
-            yield f"{self}: {count(self._refused, 'stamp')} would be before 1970 or after 2038, and stayed as before"
+        if self._refused_count:
+            yield f"{self}: {count(self._refused_count, 'stamp')} would be before 1970 or after 2038: not changed"
 
     def nearest(self, survey: Survey) -> str:
         """Return a hint with similar topics and frames."""

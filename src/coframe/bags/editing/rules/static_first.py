@@ -28,13 +28,13 @@ class StaticFirst(Rule):
 
     def __init__(self, text: str = "") -> None:
         super().__init__(text)
-        self._late: dict[tuple[str, bytes], list[FoundTransform]] = {}
+        self._late_statics: dict[tuple[str, bytes], list[FoundTransform]] = {}
 
     def prepare(self, survey: Survey) -> None:
         """Find the static transforms that come late."""
         for one in survey.static_transforms():
             if one.received > survey.span[0]:
-                self._late.setdefault((one.topic, one.header), []).append(one)
+                self._late_statics.setdefault((one.topic, one.header), []).append(one)
 
     def step(self, topic: EditedTopic) -> Step | None:
         """Return None: the recorded messages stay."""
@@ -43,7 +43,7 @@ class StaticFirst(Rule):
 
     def insertions(self) -> Iterator[Insertion]:
         """Yield the messages to add."""
-        for (topic, header), found in self._late.items():
+        for (topic, header), found in self._late_statics.items():
             self.changes += len(found)
             for one in found:
                 one.transform.parent, one.transform.child = one.parent.encode(), one.child.encode()

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["TimeRange"]
 
-_SPAN = (0, 1 << 62)  # for checking the form of a time before the recording is known
+_ANY_SPAN = (0, 1 << 62)  # for checking the form of a time before the recording is known
 
 
 class TimeRange(Rule):
@@ -32,8 +32,8 @@ class TimeRange(Rule):
         if not dots or not (start.strip() or end.strip()):
             raise EditError(f"{text[:60]!r} does not have the form {self.form}, such as 10s..60s, 10s.. or ..-2s")
         self._ends = (start.strip() or "start", end.strip() or "end")
-        self._points(_SPAN)
-        self._first, self._last = _SPAN
+        self._points(_ANY_SPAN)
+        self._first, self._last = _ANY_SPAN
 
     def prepare(self, survey: Survey) -> None:
         """Compute the two times.
