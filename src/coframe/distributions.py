@@ -129,7 +129,7 @@ DEFINITIONS: Final[Mapping[str, Definition]] = {
 REMOVED: Final[Mapping[str, RemovedInterface]] = {
     "turtlesim/": RemovedInterface(_KILTED, "They are in the package turtlesim_msgs."),
     "actionlib_msgs/": RemovedInterface(_LYRICAL, "Use action_msgs."),
-    "geometry_msgs/msg/Pose2D": RemovedInterface(_LYRICAL, "Use geometry_msgs/msg/Pose, or a message of your own."),
+    "geometry_msgs/msg/Pose2D": RemovedInterface(_LYRICAL, "Use geometry_msgs/msg/Pose, or define your own message."),
 }
 """What distributions no longer have, by type, or by package with a slash at its end."""
 

@@ -34,7 +34,7 @@ EXPECTED = {
             "TF009",
             "note",
             "base_link -> base_footprint",
-            "the stamps of 59 of 60 static transforms use another clock than /tf",
+            "the stamps of 59 of 60 static transforms use a different clock from /tf",
         ),
         ("TF011", "warning", "odom -> base_link", "182 of 780 transforms repeat a stamp"),
         ("TF011", "note", "/joint_states", "184 of 792 joint states repeat a stamp, 183 of them with other positions"),

@@ -61,7 +61,7 @@ def test_nodes_of_that_side_share_transforms(sourced):
         ({"RMW_IMPLEMENTATION": "rmw_zenoh_cpp"}, "the messages of Humble on Zenoh have no type hash"),
         (
             {"RMW_IMPLEMENTATION": "rmw_fastrtps_cpp", "COFRAME_WIRE": "zenoh"},
-            "COFRAME_WIRE selects another middleware than rmw_fastrtps_cpp.",
+            "COFRAME_WIRE selects a different middleware from rmw_fastrtps_cpp.",
         ),
     ],
 )

@@ -116,7 +116,7 @@ class HttpRanges:
             self.close()
             return answer, b""
         if answer.start:
-            raise _InterruptedError(f"the server sent its bytes from {answer.start} on instead of the first ones")
+            raise _InterruptedError(f"the server sent the bytes from {answer.start} on instead of from the beginning")
         return answer, self._body(answer, BLOCK_SIZE)
 
     def read_range(self, start: int, end: int) -> bytes:
@@ -133,7 +133,7 @@ class HttpRanges:
     def _read_part(self, start: int, end: int) -> bytes:
         answer = self._request(start, end)
         if answer.status != 206 or answer.encoding:
-            self._fail("the server has sent ranges before, but sends no more")
+            self._fail("the server no longer sends ranges, which it did before")
         if answer.version != self.version or answer.total != self.size:
             self._fail("it has changed on the server since it was opened", "Open it again.", errno.ESTALE)
         if answer.start != start or not start < answer.end <= max(end, start + 1):
@@ -161,7 +161,9 @@ class HttpRanges:
             self._fail(limit, "Download it with another program, and open the file.", errno.EFBIG)
         unpack = _unpacker(answer.encoding)
         if unpack is None:
-            self._fail(f"the server sends it packed with {answer.encoding[:30]!r}", "Download it, and open the file.")
+            self._fail(
+                f"the server sends it compressed with {answer.encoding[:30]!r}", "Download it, and open the file."
+            )
         received = written = 0
         try:
             for piece in self._read_pieces(answer, answer.total):

@@ -21,7 +21,7 @@ _MIN_SIMILARITY = 0.7
 MAX_COMPARED_FRAMES = 1_000  # one takes microseconds
 _MAX_COMPARED_LENGTH = 200
 _MIN_ABBREVIATION = 3  # letters
-# Words without a meaning of their own: `lidar`, `lidar_link` and `base_lidar` may be the same frame.
+# Words that are not specific: `lidar`, `lidar_link` and `base_lidar` may be the same frame.
 _GENERIC_WORDS = {"link", "frame", "base"}
 
 

@@ -49,7 +49,7 @@ class ClockShift(NamedTuple):
         return shifted + round(self.drift * (shifted - self.middle)) if self.drift else shifted
 
     def of_stamp(self, stamp: int, received: int) -> int:
-        """Return a shifted stamp; a stamp on another clock than the receive time stays."""
+        """Return a shifted stamp; a stamp on a different clock from the receive time is not changed."""
         return self.apply(stamp) if abs(stamp - received) < _MAX_STAMP_AGE else stamp
 
 

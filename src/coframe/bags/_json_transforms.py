@@ -56,7 +56,7 @@ def json_many(data: bytes | memoryview) -> Iterator[StampedValues]:
     """Decode a message with a list of transforms."""
     message = _object(json.loads(bytes(data)), "the message")
     if message and "transforms" not in message:
-        raise ValueError(f"no field transforms, only {_names(message)}")
+        raise ValueError(f"no field 'transforms'; the fields are {_names(message)}")
     yield from map(_transform, message.get("transforms") or [])
 
 
@@ -64,10 +64,10 @@ def _transform(value: Any) -> StampedValues:
     fields: dict[str, Any] = {}
     unknown = _collect(_object(value, "a transform"), fields)
     if unknown and "translation" not in fields:  # Protobuf omits a default, but another name is not a default.
-        raise ValueError(f"a transform has no translation, but {_names(unknown)}")
+        raise ValueError(f"a transform has no translation; its fields are {_names(unknown)}")
     if missing := {"parent", "child"} - set(fields):
         names = _names(_FIELDS[field][0] for field in sorted(missing))
-        raise ValueError(f"a transform has no {names}, only {_names(value)}")
+        raise ValueError(f"a transform has no {names}; its fields are {_names(value)}")
     x, y, z = _numbers(fields.get("translation"), "translation", "xyz")
     qx, qy, qz, qw = _numbers(fields.get("rotation"), "rotation", "xyzw")
     stamp = fields.get("timestamp")
@@ -123,7 +123,7 @@ def _nanoseconds(stamp: Any) -> int:
             if not 0 <= fraction_ns < time.SECOND:
                 raise ValueError(f"a timestamp has {fraction_ns} nanoseconds in addition to its seconds")
             return (_integer(seconds[0]) if seconds else 0) * time.SECOND + fraction_ns
-    raise ValueError(f"the timestamp {json.dumps(stamp)[:80]} is in none of the known forms")
+    raise ValueError(f"unknown timestamp format: {json.dumps(stamp)[:80]}")
 
 
 def _integer(value: Any) -> int:

@@ -33,7 +33,7 @@ class MergedNames:
     Args:
         recordings: The recordings to merge.
         prefixes: The prefix of the frames and topics of each; None: frames keep their names, and topics that several
-            recordings contain are prefixed if the frames of each recording have a prefix of their own.
+            recordings contain are prefixed if the frames of each recording have their own prefix.
         keep: Frames without the prefix.
         namespaces: The namespace of the topics of each; "" or None: they keep their names.
 

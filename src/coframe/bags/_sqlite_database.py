@@ -71,7 +71,7 @@ class Database:
         """Return the definitions of all tables by name.
 
         Raises:
-            sqlite3.Error: The file is not a database, or has other objects than tables and indexes.
+            sqlite3.Error: The file is not a database, or has objects that are neither tables nor indexes.
         """
         found = self._query("SELECT name, sql FROM sqlite_master", (), MAX_SCHEMA_STEPS).fetchall()
         for name, definition in found:

@@ -82,7 +82,7 @@ def copy_recordings(
     Messages are read and written one by one; ROS 1 messages are converted to ROS 2. Static transforms received before
     the start of the span are copied as well, at its start.
 
-    Topics with the same name are joined. If the frames of each recording have a prefix of their own, such as
+    Topics with the same name are joined. If the frames of each recording have their own prefix, such as
     ``robot1/``, the topics are kept apart as ``/robot1/scan`` and so on, except those that all robots share, such as
     ``/tf``, ``/clock`` and ``/rosout``. The notes of the report say which.
 

@@ -112,7 +112,7 @@ def stamp_of(transform: Transform, stamp: StampLike | None) -> int:
 
 
 def check_frames(parent: str, child: str, transform: Transform) -> None:
-    """Raise an InvalidArgumentException if a transform names other frames than those of its edge."""
+    """Raise an InvalidArgumentException if the frames of a transform are not those of its edge."""
     frames = (transform.target or parent, transform.source or child)
     if frames != (parent, child):
         raise InvalidArgumentException.with_details(

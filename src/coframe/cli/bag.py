@@ -107,7 +107,7 @@ class ConvertCommand(BagCommand):
 @recorded_listener_options
 @click.option("--json", "as_json", is_flag=True, help="Print JSON in full precision; times are in nanoseconds.")
 @click.option("--topic-name", "-t", "only_names", is_flag=True, help="Print only the names of the topics.")
-@click.option("--verbose", "-v", is_flag=True, help="Also show the numbers of requests and responses of services.")
+@click.option("--verbose", "-v", is_flag=True, help="Also show the number of requests and responses of each service.")
 def info(
     bag: Readable,
     namespace: str | None,
@@ -337,9 +337,9 @@ def merge(
 ) -> None:
     """Merge several recordings into one, with the messages in receive order.
 
-    Topics with the same name are joined. If the frames of each recording have a prefix of their own, the topics are
-    kept apart as /robot1/scan and /robot2/scan; --prefix adds such prefixes. Shared topics such as /tf, /clock and
-    /rosout keep their names. If the recordings are of different robots with the same names, it is an error.
+    Topics with the same name are joined. If the frames of each recording have their own prefix, the topics are
+    kept separate as /robot1/scan and /robot2/scan; --prefix adds such prefixes. Shared topics such as /tf, /clock and
+    /rosout keep their names. Different robots must not use the same names.
 
     Example: coframe bag merge first.mcap second.mcap --prefix robot1/ --prefix robot2/ --keep map -o both
     """

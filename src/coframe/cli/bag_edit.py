@@ -135,9 +135,9 @@ def edit(
 ) -> None:
     """Write an edited copy of the recording BAG; BAG is not changed.
 
-    Rules are applied in the order in which they are given, and each can be repeated. Everything that they do not name
-    stays as it is. The copy has the format of BAG: a file if OUT ends like one (fixed.mcap), else a folder. ROS 1 bags
-    become MCAP.
+    Rules are applied in the order in which they are given, and each can be repeated. Everything else is
+    copied unchanged. The copy has the format of BAG: a file if OUT has the suffix of one (fixed.mcap), otherwise a
+    folder. ROS 1 bags become MCAP.
 
     The exit code is 3 if the copy was written but a rule changed nothing, such as one with a misspelled name.
 

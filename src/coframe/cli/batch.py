@@ -127,8 +127,8 @@ def batch(
 ) -> None:
     """Write the trajectories of SOURCE relative to TARGET, or tables, of many recordings as one Parquet dataset.
 
-    Results of an earlier run are reused. Recordings that cannot be read are listed on standard error, and with all
-    values that are missing in _manifest.json in the folder.
+    Results of an earlier run are reused. Unreadable recordings are listed on standard error.
+    _manifest.json in the folder lists them and all missing values.
 
     Example: coframe batch map base_link runs/*.mcap -o poses
 

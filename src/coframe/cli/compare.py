@@ -59,7 +59,7 @@ _SUFFIXES = tuple(f".{kind}" for kind in (*FIGURE_FORMATS, "json", "csv"))
     "--n-to-align",
     metavar="N",
     type=click.IntRange(min=1),
-    help="Align by the first N pairs of poses only. [default: all]",
+    help="Use only the first N pairs of poses for the alignment. [default: all]",
 )
 @click.option(
     "--max-difference",
@@ -127,7 +127,7 @@ def compare(
 ) -> None:
     """Compare the trajectories EST with the trajectory REF: absolute (APE) and relative (RPE) pose errors.
 
-    Poses are paired by nearest stamp. The results equal those of evo.
+    Poses are paired by nearest stamp. The results match those of evo.
 
     Example: coframe compare truth.tum run.mcap:map:base_link --align se3
     """

@@ -67,7 +67,7 @@ _CPU_SHARE = 0.006
     "-r",
     "shows_graph",
     is_flag=True,
-    help="Print this machine and the ROS graph instead: nodes, topics, services, actions and QoS, like ros2 doctor.",
+    help="Describe this machine and the ROS graph instead: nodes, topics, services, actions and QoS, like ros2 doctor.",
 )
 @click.option("--include-warnings", "-iw", is_flag=True, hidden=True)
 @click.option("--report-failed", "-rf", is_flag=True, hidden=True)

@@ -35,7 +35,7 @@ def sampled_points(recording: Recording, topic: str, type_: str) -> tuple[Observ
     Args:
         recording: The recording to read.
         topic: The name of the topic.
-        type_: The type of its messages; other types than PointCloud2 and LaserScan have no points.
+        type_: The type of its messages; only PointCloud2 and LaserScan have points.
     """
     if type_ not in {LASER_SCAN, POINT_CLOUD}:
         return ()

@@ -108,7 +108,7 @@ def destination(points: Any, out: Any, *, in_place: bool) -> Any:
     A message has a new header, whose stamp may still be the object in ``points``.
 
     Raises:
-        TypeError: ``out`` has another type than the points.
+        TypeError: The type of ``out`` differs from that of the points.
         ValueError: Both ``out`` and ``in_place`` are given, or the array has another shape or is read-only.
     """
     if in_place and out is not None and out is not points:

@@ -195,7 +195,7 @@ def transform_message(transform: Transform, message: Any, pose_of: Any) -> Any:
     """Return a copy of a message whose poses are transformed.
 
     Raises:
-        FrameMismatchException: The message is expressed in another frame than the source of the transform.
+        FrameMismatchException: The frame of the message is not the source of the transform.
         ValueError: It contains no pose, or the transform is a batch.
     """
     if transform.shape:

@@ -182,7 +182,7 @@ class Middleware(Protocol):
         """Raise a `WireError` if it is not installed, without importing it."""
 
     def describe(self) -> list[str]:
-        """Return lines about the library for `coframe doctor --system`, unless it has an examination of its own."""
+        """Return lines about the library for `coframe doctor --system`, unless it has its own examination."""
 
     def network(self, environment: Mapping[str, str]) -> str:
         """Return a string that is equal for two environments if processes in both join the same network.

@@ -93,7 +93,7 @@ class Graph:
         raise NotImplementedError
 
     def foreign_services(self, peer: DiscoveredEndpoint) -> str:
-        """Return the middleware of an endpoint if it sends requests in another form than this process, or "" if not."""
+        """Return the middleware of an endpoint whose requests have a different form from ours, or ""."""
         del peer
         return ""
 

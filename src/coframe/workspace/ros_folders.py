@@ -60,7 +60,7 @@ def folders_after_ros(path: Iterable[str]) -> list[str]:
 
 @functools.lru_cache(maxsize=4)  # Every ROS package of coframe calls this when it is imported.
 def foreign_packages(path: tuple[str, ...]) -> dict[str, str]:
-    """Find the ROS packages that would be imported from another folder than coframe's.
+    """Find the ROS packages that would be imported from a folder other than coframe's.
 
     Folders after coframe's count only if they have a complete ROS 2, because coframe's packages are found last.
     Otherwise, they contain packages of ROS 1, such as Debian's, which do not belong to an rclpy.

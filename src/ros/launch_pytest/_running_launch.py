@@ -24,7 +24,7 @@ _launches: dict[LaunchFixture, RunningLaunch] = {}
 
 
 class RunningLaunch:
-    """A launch service that runs in an event loop of its own.
+    """A launch service that runs in its own event loop.
 
     Args:
         options: The launch fixture.

@@ -22,7 +22,7 @@ def parametrize(
         argvalues: The values; with several names, each is a sequence of the same length.
 
     Raises:
-        ValueError: A sequence of values has another length than the names.
+        ValueError: The number of values differs from the number of names.
     """
     names = [name.strip() for name in argnames.split(",") if name.strip()] if isinstance(argnames, str) else argnames
     rows = [(value,) if len(names) == 1 else tuple(value) for value in argvalues]

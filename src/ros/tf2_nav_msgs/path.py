@@ -14,7 +14,7 @@ def do_transform_path(path: Path, transform: TransformStamped) -> Path:
     of the pose, and gets the new frame.
 
     Raises:
-        InvalidArgumentException: A pose is in another frame than the path.
+        InvalidArgumentException: The frame of a pose differs from that of the path.
     """
     frame = path.header.frame_id
     result = Path(header=transform.header)

@@ -136,7 +136,7 @@ def _native_problem() -> str | None:
         return "the messages of Humble on Zenoh have no type hash, which coframe needs."
     try:
         if os.environ.get(selection.VARIABLE) and selection.select().wire != needed:
-            return f"{selection.VARIABLE} selects another middleware than {middleware}."
+            return f"{selection.VARIABLE} selects a different middleware from {middleware}."
         selection.check(needed)
     except WireError as error:
         return f"{error} {error.hint}".strip()

@@ -63,7 +63,7 @@ def calibrated_transforms(path: Path, names: dict[str, str], survey: Survey) -> 
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         if isinstance(error, EditError):
             raise
-        raise EditError(f"{path} is not a calibration that coframe knows: {type(error).__name__}: {error}") from None
+        raise EditError(f"{path} is not a calibration in a known format: {type(error).__name__}: {error}") from None
 
 
 def _sensor_kit(content: dict[str, Any]) -> Iterator[Mount]:
@@ -115,7 +115,7 @@ def _imu(names: dict[str, str], survey: Survey) -> str:
         return frame
     raise EditError(
         "Kalibr's file does not name the frame of the IMU, and the recording has "
-        f"{f'{len(topics)} topics of one' if topics else 'no topic of one'}",
+        f"{f'{len(topics)} IMU topics' if topics else 'no IMU topic'}",
         hint="Give its name after the file: imu=imu_link.",
     )
 

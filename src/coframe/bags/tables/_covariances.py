@@ -54,7 +54,7 @@ def _edges_between(recording: Recording, poses: Iterable[PoseSource]) -> set[str
     """Return the frames whose edges to their parents are on the way between the frames."""
     children: set[str] = set()
     for pose in poses:
-        with suppress(CoframeError):  # Unknown frames have an error of their own.
+        with suppress(CoframeError):  # Unknown frames have their own error.
             source = pose.source if pose.source in recording.buffer.frame_names() else pose.source.rpartition(".")[0]
             frames = recording.buffer.chain(pose.target, 0, source or pose.source, 0, pose.target)
             children.update(frames)

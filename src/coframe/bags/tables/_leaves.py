@@ -70,7 +70,7 @@ class MissingElementError(CoframeError, LookupError):
 
 @dataclass(frozen=True)
 class Leaf:
-    """A value without fields of its own.
+    """A value that has no fields.
 
     Attributes:
         steps: Its path below the column; () if the column itself is this value.

@@ -152,7 +152,7 @@ def _interpolate_rotations(
 
 
 def _convert_value(value: Any, leaf: Leaf) -> Any:
-    """Return a value of a message as one that NumPy stores; None if it has another type than in other messages."""
+    """Return a value of a message as one that NumPy stores; None if its type differs from other messages."""
     try:
         return _CONVERSIONS[leaf.kind](value, leaf)
     except (TypeError, ValueError, OverflowError, LookupError):

@@ -155,7 +155,7 @@ def _poses_of_list(
     recording: Recording,
     report: Callable[[str], object],
 ) -> Transform:
-    """Return the poses of the last message with a list, such as Path, each of which has a stamp of its own."""
+    """Return the poses of the last message with a list, such as Path, each of which has its own stamp."""
     for _, message in messages.iterate_messages([len(messages.samples) - 1]):
         owner = None if message is None else at_path(message, path)
         items = [] if owner is None else list(getattr(owner, name))
@@ -163,7 +163,7 @@ def _poses_of_list(
             raise RecordingError(f"the last message on {messages.topic} has no poses")
         if not hasattr(items[0], "header"):
             raise RecordingError(
-                f"the poses of {label} have no stamps of their own, so they are not a trajectory",
+                f"the poses of {label} have no separate stamps, so they are not a trajectory",
                 hint="Trajectories come from messages such as Odometry, PoseStamped, TransformStamped and Path.",
             )
         stamps = np.array([stamp_ns(each.header.stamp) for each in items], dtype=np.int64)

@@ -74,7 +74,7 @@ def find(action_type: str, count: bool, spin_time: NonNegativeDuration) -> None:
 @action.command(cls=GraphCommand, short_help="Show the clients and servers of an action.")
 @action_argument
 @click.option("--show-types", "-t", is_flag=True, help="Also show the types.")
-@click.option("--count", "-c", is_flag=True, help="Print only the numbers of nodes.")
+@click.option("--count", "-c", is_flag=True, help="Print only how many clients and servers there are.")
 @spin_time_option(DISCOVERY_TIME)
 def info(
     action_name: str,

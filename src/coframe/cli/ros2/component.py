@@ -210,7 +210,7 @@ def unload(container: str, numbers: tuple[int, ...], timeout: PositiveDuration, 
         raise Exit(1)
 
 
-@component.command(cls=GraphCommand, short_help="Run a composable node in a container of its own.")
+@component.command(cls=GraphCommand, short_help="Run a composable node in its own container.")
 @package_argument
 @plugin_argument
 @_node_options
@@ -232,7 +232,7 @@ def standalone(
     parameters: tuple[str, ...],
     extra: tuple[str, ...],
 ) -> None:
-    """Run a composable node in a container of its own, until Ctrl-C.
+    """Run a composable node in its own container, until Ctrl-C.
 
     Example: coframe component standalone demo_nodes_py demo_nodes_py::Talker
     """

@@ -251,7 +251,7 @@ def load_type(kind: str, load: Callable[[str], Any]) -> Any:
         fail(
             f"The passed type '{kind}' is invalid: {error}",
             similar_types_hint(kind)
-            or "coframe interface list shows all types. COFRAME_INTERFACES adds packages of your own.",
+            or "coframe interface list shows all types. COFRAME_INTERFACES adds your own packages.",
         )
 
 

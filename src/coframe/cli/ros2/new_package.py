@@ -43,7 +43,7 @@ def write_package(package: NewPackage, destination: Path) -> list[Path]:
         if name is not None and not _NAME.fullmatch(name):
             fail(f"{name!r} is not a valid {what} name", "Use lower-case letters, digits and underscores.", code=2)
     if package.node_name == package.name:
-        fail("The node needs another name than the package: both would be executables.", code=2)
+        fail("The node and the package need different names, because both become executables.", code=2)
     folder = destination / package.name
     if folder.exists():
         fail(f"Aborted! {folder} already exists.", "Choose another name, or remove the folder.")

@@ -140,7 +140,7 @@ def dump(
     metavar="[NODE] NAME...",
     nargs=-1,
     required=True,
-    help="Name of the node and names of its parameters; or only the name of a parameter, for all nodes.",
+    help="Node and names of its parameters; or one parameter name, to print it for all nodes.",
 )
 @click.option("--hide-type", is_flag=True, help="Print only the values.")
 @hidden_nodes_option

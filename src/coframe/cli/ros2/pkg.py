@@ -81,11 +81,11 @@ def create(
     library_name: str | None,
     build_type: str,
 ) -> None:
-    """Create a package that coframe and colcon can use: of Python nodes, or of types.
+    """Create a package that coframe and colcon can use, for Python nodes or for types.
 
-    A package of types has the folders msg, srv and action, whose files coframe uses without a build.
+    A package for types has the folders msg, srv and action, whose files coframe uses without a build.
 
-    Example: coframe pkg create arm --node-name wave --dependencies rclpy
+        Example: coframe pkg create arm --node-name wave --dependencies rclpy
     """
     del package_format
     if build_type not in BUILD_TYPES:

@@ -41,7 +41,7 @@ def find(observation: Observation) -> Iterator[Finding]:
             severity=Severity.NOTE,
             text=f"a message without transforms was published {times(observation.empty_messages)}",
             fix="Empty messages are harmless. To avoid them: `if transforms: broadcaster.sendTransform(transforms)`.",
-            harm="Listeners process the message without effect.",
+            harm="Listeners process the message for nothing.",
         )
 
 

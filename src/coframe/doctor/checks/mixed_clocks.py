@@ -61,7 +61,7 @@ def _make_finding(
         code=CODE,
         severity=Severity.ERROR,
         text=f"two clocks: the stamps of {_offsets(observation, names)} {_clock_name(usual)} ({seconds(stamps[0])}"
-        f"{_KINDS.get(clock, '')}), which those of {join_names(usual_names)} are on",
+        f"{_KINDS.get(clock, '')}), the clock of {join_names(usual_names)}",
         fix="Use one clock for all nodes. "
         + (
             "Start these nodes with --ros-args -p use_sim_time:=true."
@@ -110,7 +110,7 @@ def _find_static_offsets(observation: Observation, usual: str) -> Iterator[Findi
         yield Finding(
             code=CODE,
             severity=Severity.NOTE,
-            text=f"the stamps of {len(off)} of {len(observation.static)} static transforms use another clock than "
+            text=f"the stamps of {len(off)} of {len(observation.static)} static transforms use a different clock from "
             f"/tf ({seconds(off[0].first_stamp)}, {duration(abs(off[0].first_stamp - high))} off), {zero} have the "
             "stamp 0; tf2 ignores the stamps of static transforms",
             fix="Start their publishers with --ros-args -p use_sim_time:=true, like the other nodes.",

@@ -34,7 +34,7 @@ _ONE_SOURCE = {
     *(f"geometry_msgs/msg/{name}" for name in ("TwistStamped", "TwistWithCovarianceStamped", "WrenchStamped")),
 }
 _FIX = (
-    "Give each source a topic of its own: remap it in one of the launch files, or start each robot in a namespace. "
+    "Give each source its own topic: remap it in one of the launch files, or start each robot in a namespace. "
     "Recordings of two robots: `coframe bag merge A B --prefix robot1/ --prefix robot2/`."
 )
 

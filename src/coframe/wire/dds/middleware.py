@@ -29,7 +29,7 @@ class DdsMiddleware:
         library.check()
 
     def describe(self) -> list[str]:
-        """Return nothing: it has an examination of its own."""
+        """Return nothing: this middleware has its own examination."""
         return []
 
     def network(self, environment: Mapping[str, str]) -> str:

@@ -56,7 +56,7 @@ class Clock(Rule):
                 self._tick(received, topic.stamps.first(message.data))
                 return
         raise EditError(
-            "the recording has no /clock, which says how the two clocks belong together",
+            "the recording has no /clock topic, which relates the two clocks",
             hint="`coframe doctor BAG` names the offset of each clock; `coframe bag edit --shift` removes it.",
         )
 

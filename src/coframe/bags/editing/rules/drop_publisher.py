@@ -75,7 +75,7 @@ class DropPublisher(Rule):
         self._ends = _tracks(poses)
         if not self._ends:
             raise EditError(
-                f"the poses of {self.text.partition('#')[0]} do not follow two tracks of which one could be removed",
+                f"the poses of {self.text.partition('#')[0]} do not form two separate tracks",
                 hint="`coframe doctor BAG` reports transforms with two publishers.",
             )
 
