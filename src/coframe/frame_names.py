@@ -94,7 +94,7 @@ def absolute(topic: str) -> str:
 
 
 def is_robot_topic(topic: str, tf_topic: str, tf_static_topic: str) -> bool:
-    """Return whether a topic belongs to the robot: it is one of these transform topics, or is in their namespace.
+    """Return whether a topic is one of the robot's transform topics or in their namespace.
 
     Example:
         >>> is_robot_topic("/robot1/scan", "/robot1/tf", "/tf_static")

@@ -145,7 +145,7 @@ def _check_document(events: Any, yaml: Any) -> None:
 
 
 def _deep_copy(value: Any) -> Any:
-    """Return a copy in which no part occurs twice, so that a change of one part does not change another."""
+    """Return a copy without shared parts, so that changing one part does not change another."""
     if isinstance(value, dict):
         return {key: _deep_copy(part) for key, part in value.items()}
     if isinstance(value, list):

@@ -37,7 +37,7 @@ _KINDS = {
 
 
 def what_else(beginning: bytes) -> str:
-    """Return what a file is, as a clause with what to do, or "" if it is not known.
+    """Return a clause that describes a file of another kind and what to do with it, or "" if the kind is unknown.
 
     Args:
         beginning: The first `BEGINNING` bytes; fewer if the file is shorter.

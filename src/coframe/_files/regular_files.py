@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read untrusted files by one rule: check that the file is regular, open it, and read at most a limit.
+"""Read untrusted files safely: check that the file is regular, open it, and read only up to a limit.
 
 A path can also name a pipe, which blocks on opening until there is a writer, a device such as ``/dev/zero``, which
 never ends, or a socket; a link can point to any of them. A regular file can be sparse: a terabyte that takes an hour to
@@ -124,7 +124,7 @@ def check_regular(path: str | os.PathLike[str], max_bytes: int | None = None) ->
 
 
 def reading_hint(error: OSError) -> str:
-    """Return what to do about a file that cannot be read, or "" if the error message already says it."""
+    """Return a hint for a file that cannot be read, or "" if the error message already contains it."""
     return "" if isinstance(error, UnsuitableFileError) else "Check the path and the permission to read it."
 
 

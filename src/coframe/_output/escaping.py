@@ -21,7 +21,7 @@ def printable(text: str) -> str:
 
 
 def one_line(text: str) -> str:
-    r"""Return a message that contains untrusted names as one printable line. A very long one is truncated.
+    r"""Return a message that contains untrusted names as one printable line, truncated if it is very long.
 
     The end is cut, not the middle: without its middle, a suggested shell command could close a quotation and run what a
     name contains.

@@ -48,7 +48,7 @@ class FileRanges:
 
 
 class DownloadedRanges(FileRanges):
-    """A temporary file with the content of a file that a server sent as a whole."""
+    """A temporary file with the complete content that a server sent."""
 
     def close(self) -> None:
         """Delete the temporary file."""

@@ -82,7 +82,7 @@ class HttpRanges:
 
     Attributes:
         name: The address without credentials.
-        size: Bytes of the file; 0 if `is_ranged` is False.
+        size: Bytes of the file, or 0 if `is_ranged` is False.
         is_ranged: Whether the server sends ranges; otherwise, only `download` reads the file.
         beginning: The first bytes of the file, if ranges are sent.
         version: The headers that change with the file: ETag and Last-Modified.
@@ -143,7 +143,7 @@ class HttpRanges:
     def download(
         self, write: Callable[[bytes], object], max_bytes: int, progress: Callable[[int, int], object]
     ) -> None:
-        """Read the whole file from a server that sends no ranges; it may be packed with gzip.
+        """Read the complete file, possibly compressed with gzip, from a server that does not support ranges.
 
         Args:
             write: Receives the bytes.
@@ -209,7 +209,7 @@ class HttpRanges:
         raise AssertionError  # not reached
 
     def _request(self, start: int | None, end: int | None) -> _RangeResponse:
-        """Send a request, and follow redirects; ``start`` None requests the whole file."""
+        """Send a request, and follow redirects. If ``start`` is None, request the complete file."""
         for _ in range(MAX_REDIRECTS + 1):
             headers = {"Accept-Encoding": "identity", "User-Agent": "coframe", "Accept": "*/*"}
             if start is not None and end is not None:
@@ -337,7 +337,7 @@ class HttpRanges:
 
 
 class _Deadline:
-    """Ends a connection whose server sends too slowly, even if it sends a byte now and then."""
+    """Ends a connection whose server sends too slowly, even if it sends an occasional byte."""
 
     def __init__(self, sock: socket.socket | None, size: int | None) -> None:
         self.has_passed = False
@@ -389,7 +389,7 @@ def _connect(url: SplitResult, proxy: SplitResult | None) -> http.client.HTTPCon
 
 
 def _proxy(url: SplitResult) -> SplitResult | None:
-    """Return the proxy that the environment prescribes for a URL; None if there is none."""
+    """Return the proxy that the environment prescribes for a URL, or None if there is none."""
     host = url.netloc.rpartition("@")[2]
     found = urllib.request.getproxies().get(url.scheme)
     if not found or urllib.request.proxy_bypass(host):
@@ -398,7 +398,7 @@ def _proxy(url: SplitResult) -> SplitResult | None:
 
 
 def _authorization(url: SplitResult) -> str:
-    """Return the value of the header with the user name and password of a URL; "" without them."""
+    """Return the value of the header with the user name and password of a URL, or "" without them."""
     if url.username is None:
         return ""
     user = f"{unquote(url.username)}:{unquote(url.password or '')}"
@@ -406,7 +406,7 @@ def _authorization(url: SplitResult) -> str:
 
 
 def _unpacker(encoding: str) -> Callable[[bytes], Any] | None:
-    """Return a function that yields the unpacked bytes of pieces; None for an unknown encoding."""
+    """Return a function that yields the unpacked bytes of pieces, or None for an unknown encoding."""
     if not encoding:
         return lambda piece: (piece,)
     if encoding not in {"gzip", "x-gzip", "deflate"}:

@@ -45,7 +45,7 @@ class _Store:
         self._files, self.path = self._call(core.url_to_fs, url.strip())
 
     def info(self) -> dict[str, Any]:
-        """Return what the store knows about the path, as it is now."""
+        """Return the current metadata of the path from the store."""
         self._call(self._files.invalidate_cache)
         return dict(self._call(self._files.info, self.path, timeout=MAX_WAIT))
 

@@ -148,7 +148,7 @@ class _Blocks:
         )
 
     def touch(self, number: int) -> bool:
-        """Return whether there is a block; it is then the most recently used one."""
+        """Return whether a block is cached, and mark it as the most recently used."""
         if number not in self._places:
             return False
         self._places.move_to_end(number)

@@ -86,7 +86,7 @@ class Source:
 
     @property
     def identity(self) -> str:
-        """A name that stays the same between sessions, also if the signature in the URL does not."""
+        """A name that stays the same between sessions, even if the signature in the URL changes."""
         return str(self)
 
     @property
@@ -120,7 +120,7 @@ class Source:
         return self.cache.read(offset, size)
 
     def is_folder(self) -> bool:
-        """Return whether it is a folder with files; it then has no bytes."""
+        """Return whether the source is a folder with files, which has no bytes itself."""
         return False
 
     def inner(self, name: str) -> Source:
@@ -128,7 +128,7 @@ class Source:
         raise NotImplementedError
 
     def names(self) -> list[str] | None:
-        """Return the names of the files in a folder; None if the server does not tell."""
+        """Return the names of the files in a folder, or None if the server does not list them."""
         return None
 
     def copy(self, closing: ExitStack) -> Path:
@@ -154,7 +154,7 @@ class Source:
         return target
 
     def close(self) -> None:
-        """Close connections, and forget what was read; reading opens the file again."""
+        """Close connections and discard cached data. Reading opens the file again."""
         with self._lock:
             if self._cache is not None and self._process == os.getpid():
                 self._cache.close()
@@ -256,7 +256,7 @@ class _Http(_Url):
         return super().inner(quote(name))
 
     def is_folder(self) -> bool:
-        """Return whether the path of the URL ends with a slash: servers do not tell what a folder is."""
+        """Return whether the path of the URL ends with a slash, because servers do not mark folders."""
         return re.split("[?#]", self._url)[0].endswith("/")
 
     def _connect(self) -> ByteRanges:

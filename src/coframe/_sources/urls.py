@@ -27,18 +27,18 @@ _MAX_SHOWN: Final = 300
 
 
 def scheme_of(text: object) -> str:
-    """Return the scheme of a URL in small letters, such as ``s3``; "" for all that is not a URL, such as a path."""
+    """Return the scheme of a URL in small letters, such as ``s3``, or "" for all that is not a URL, such as a path."""
     match = _SCHEME.match(text) if isinstance(text, str) else None
     return match[1].lower() if match else ""
 
 
 def is_url(text: object) -> bool:
-    """Return whether a string is a URL, such as ``s3://bucket/run.mcap``; False for paths, also ``C:/run.mcap``."""
+    """Return whether a string is a URL, such as ``s3://bucket/run.mcap``, or False for paths, also ``C:/run.mcap``."""
     return bool(scheme_of(text))
 
 
 def remove_credentials(url: str) -> str:
-    """Return a URL, or a text with URLs, without user names with passwords and without queries, printable."""
+    """Return text as printable, with passwords and queries removed from the URLs in it."""
     shown = _QUERY_PART.sub("", _PASSWORD_PART.sub("//", url.strip()))
     if len(shown) > _MAX_SHOWN:
         shown = f"{shown[:_MAX_SHOWN]}..."
@@ -53,7 +53,7 @@ def remove_signature(url: str) -> str:
 
 
 def base_name(url: str) -> str:
-    """Return the name of the file or folder that a URL ends with; "" without one."""
+    """Return the name of the file or folder that a URL ends with, or "" without one."""
     try:
         path = urlsplit(url.strip()).path
     except ValueError:

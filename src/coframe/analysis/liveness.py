@@ -98,7 +98,7 @@ def stale_limit(period: float | NDArray[np.float64]) -> float | NDArray[np.float
     """Return how long an edge may receive nothing before it is stale.
 
     Args:
-        period: The usual period in nanoseconds (see :func:`usual_period`), or an array of periods; 0 if unknown.
+        period: The usual period in nanoseconds (see :func:`usual_period`), or an array of periods, or 0 if unknown.
 
     Returns:
         Nanoseconds: :data:`STALE_PERIODS` periods, and at least :data:`STALE_AFTER`.

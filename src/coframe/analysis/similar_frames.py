@@ -26,7 +26,7 @@ _GENERIC_WORDS = {"link", "frame", "base"}
 
 
 def similar_frames(name: str, known: Iterable[str], *, most: int = 1) -> list[str]:
-    """Return the frames of which a name may be a misspelling, the most similar one first.
+    """Return the frames whose names are similar to a possibly misspelled name, the most similar first.
 
     Example:
         >>> similar_frames("lidr_link", ["base_link", "lidar_link"]), similar_frames("lidar_link", ["base_link"])

@@ -92,7 +92,7 @@ class FrameTrees:
         return tuple(map(tuple, found))
 
     def component(self, frame: str) -> int | None:
-        """Return the number of the tree of a frame, or None if there is no such frame."""
+        """Return the number of the tree of a frame, or None if the frame does not exist."""
         number = self.index.get(frame)
         return None if number is None else self.components[number]
 
@@ -102,7 +102,7 @@ class FrameTrees:
         return frame if number is None else self.names[self.roots[self.components[number]]]
 
     def tree(self, frame: str) -> list[str]:
-        """Return the frames of the tree of a frame, the root first and the others by name.
+        """Return the frames in the tree of a frame: the root, then the others by name.
 
         Example:
             >>> FrameTrees.from_parents({"lidar": "base", "base": "odom", "odom": "", "map": ""}).tree("base")
@@ -142,7 +142,7 @@ class FrameTrees:
 def _add_tree(
     root: int, number: int, children: list[list[int]], components: list[int], depths: list[int], order: list[int]
 ) -> None:
-    """Record the number, depths and order of the frames of one tree, depth first."""
+    """Store the number, depths and order of the frames of one tree, depth first."""
     components[root] = number
     pending = [root]
     while pending:

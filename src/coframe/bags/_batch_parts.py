@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The Parquet file of one recording in the dataset of a batch, with its checksum and what it was made from."""
+"""The Parquet file of one recording in a batch dataset, with its checksum and its inputs."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def part_of(bag: Readable, folder: Path) -> Path:
 
 
 def fingerprint(bag: Readable, query: TrajectoryQuery | TableQuery) -> bytes:
-    """Return a text that changes with the query, and with the files of the recording.
+    """Return a string that changes with the query and with the files of the recording.
 
     Raises:
         OSError: The recording cannot be read.
@@ -57,7 +57,7 @@ def fingerprint(bag: Readable, query: TrajectoryQuery | TableQuery) -> bytes:
 
 
 def previous_result(part: Path, bag: str, made_from: bytes) -> QueryResult | None:
-    """Return the result of an earlier run; None if its file does not exist, is damaged or is out of date."""
+    """Return the result of an earlier run, or None if its file does not exist, is damaged or is out of date."""
     if not _is_intact(part):
         return None
     try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a query of one recording has found, and the list of what all recordings do not have."""
+"""The results of a query on each recording, and the list of missing values."""
 
 from __future__ import annotations
 
@@ -54,10 +54,10 @@ class QueryResult(NamedTuple):
         poses: Number of poses, or rows of the table, that were written.
         missing: Number of poses or rows omitted because a value is missing.
         problems: Read errors and unusual data, one message each.
-        error: Why the query failed; "" if it succeeded.
+        error: Why the query failed, or "" if it succeeded.
         kept: Whether the file from an earlier run was kept.
         reason: For a failed query, a word that programs can compare: ``unreadable``, ``no topic``, ``no transform``,
-            ``gap``, ``interrupted`` or ``failed``; "" if it succeeded.
+            ``gap``, ``interrupted`` or ``failed``, or "" if it succeeded.
         omitted: The intervals without values, at most 100 for each column.
         file: The name of the file in the dataset; "" if there is none. For a failed query, it is that of an earlier run
             of the same query.
@@ -113,7 +113,7 @@ class Manifest:
         self._written = -_PERIOD
 
     def add(self, number: int, result: QueryResult) -> None:
-        """Enter the result of a recording; the file is written now and then."""
+        """Store the result of a recording. The file is written periodically."""
         self._results[number] = result
         if time.monotonic() - self._written > _PERIOD:
             self.write()

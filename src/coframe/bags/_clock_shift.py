@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A shift from the clock of one recording to that of another, and how it is measured from what both contain."""
+"""A shift from the clock of one recording to that of another, and its measurement from their common data."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class ClockShift(NamedTuple):
         offset: The offset in nanoseconds at the time `middle`.
         drift: The change of the offset, in seconds per second.
         middle: A time after the shift, in nanoseconds.
-        evidence: How it was measured, with its standard deviation; "" for a given offset.
+        evidence: How it was measured, with its standard deviation, or "" for a given offset.
     """
 
     offset: int

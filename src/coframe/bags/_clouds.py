@@ -402,7 +402,7 @@ def _field_and_unit(text: str | None) -> tuple[str | None, str | None]:
 
 
 def _structured_array(columns: dict[str, NDArray[Any]]) -> NDArray[Any]:
-    """Return a packed little-endian array, with coordinates as float64 so that they stay exact far from the origin."""
+    """Return a packed little-endian array, with float64 coordinates that remain exact far from the origin."""
     kinds = [(n, "<f8" if n in {"x", "y", "z"} else v.dtype.newbyteorder("<")) for n, v in columns.items()]
     points = np.empty(len(columns["x"]), dtype=kinds)
     for name, values in columns.items():

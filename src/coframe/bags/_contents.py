@@ -64,7 +64,7 @@ class Buffers(NamedTuple):
 
 
 class _ChannelTrack(NamedTuple):
-    """The messages of a channel, and the function that ingests their transforms; None if they are not needed."""
+    """The messages of a channel, and the function that ingests their transforms, or None if they are not needed."""
 
     track: Track
     ingest: Callable[[NDArray[np.int64], Slices], None] | None
@@ -80,7 +80,7 @@ class Contents:
         closing: Closes the files.
         types: The types of the messages.
         index: The position of each message.
-        received_span: First and last receive time; None without messages.
+        received_span: First and last receive time, or None without messages.
         read_buffers: Returns the transforms; of a recording on a server, it reads them.
     """
 
@@ -152,7 +152,7 @@ class _ReadState:
         self._tracks: dict[Channel, _ChannelTrack] = {}
 
     def read(self) -> Contents:
-        """Read what is needed at once."""
+        """Read the data that is needed immediately."""
         storages, listed_topics, _ = open_files(self._path, self._problems, self.closing, self._progress)
         may_wait = self._window.is_all and not self._is_watched and any(map(_is_remote, storages))
         listings = _listings(storages) if may_wait or not self._window.is_all else None
@@ -328,7 +328,7 @@ def _is_remote(storage: Storage) -> bool:
 
 
 def _listings(storages: list[Storage]) -> list[tuple[Storage, Listing]] | None:
-    """Return the indexes of files; None if one of them has none."""
+    """Return the indexes of files, or None if one of them has none."""
     listings = []
     for storage in storages:
         listing = storage.listing()

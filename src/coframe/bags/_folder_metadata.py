@@ -47,7 +47,7 @@ def read_metadata(file: Readable, problems: Problems) -> dict[str, Any]:
 
 
 def word(metadata: dict[str, Any], key: str) -> str:
-    """Return a string value; "" for another type."""
+    """Return a string value, or "" for another type."""
     value = metadata.get(key)
     return value if isinstance(value, str) else ""
 

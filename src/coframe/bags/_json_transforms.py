@@ -127,7 +127,7 @@ def _nanoseconds(stamp: Any) -> int:
 
 
 def _integer(value: Any) -> int:
-    """Return an integer that may be written as text, as 1.0, or as the two halves that JavaScript uses."""
+    """Return an integer from a string, a float such as 1.0, or the two 32-bit halves that JavaScript uses."""
     if isinstance(value, int) and not isinstance(value, bool):
         return value
     if isinstance(value, float) and value.is_integer() and abs(value) < _MAX_EXACT_FLOAT:

@@ -54,7 +54,7 @@ _CRC_AND_MAGIC = 4 + len(MCAP.magic)  # bytes at the end of the file that the CR
 
 
 class _ChunkIndex(NamedTuple):
-    """What the summary says about a chunk: places in the file, receive times, and the numbers of channels."""
+    """A chunk as listed in the summary: its position, its receive times, and the numbers of its channels."""
 
     offset: int
     end: int
@@ -109,7 +109,7 @@ class McapStorage(ChunkedStorage):
         progress(self.size)
 
     def listing(self) -> Listing | None:
-        """Return the index in the summary; None if there is none, or if it cannot be that of all messages."""
+        """Return the index in the summary, or None if there is none, or if it cannot be that of all messages."""
         self._read_summary()
         indexes = sorted(self._chunk_indexes)
         chunks = [
@@ -272,7 +272,7 @@ class McapStorage(ChunkedStorage):
             self._listed_counts = dict(_CHANNEL_COUNT.iter_unpack(counts))
 
     def _check_statistics(self) -> None:
-        """Report messages that the recorder counted but that are not there, or the other way round."""
+        """Report differences between the recorder's message counts and the messages in the file."""
         read = sum(self._counts.values())
         if self._listed_counts is None:
             if self._listed_total not in {None, read}:

@@ -210,7 +210,7 @@ class McapWriter:
         return bytes(records), bytes(offsets)
 
     def _summary(self, offset: int) -> bytes:
-        """Return the end of the file with a summary, for the offset at which it begins."""
+        """Return the end of the file, with a summary that begins at an offset."""
         counts = b"".join(struct.pack("<HQ", *pair) for pair in enumerate(self.counts))
         statistics = struct.pack(
             "<QHIIIIQQ",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The names of topics and frames when recordings are merged: those of several robots stay apart."""
+"""The names of topics and frames when recordings are merged. Names of different robots stay separate."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ class MergedNames:
         return f"/{prefix}{absolute(name).lstrip('/')}"
 
     def notes(self, topics: Sequence[Sequence[str]]) -> list[str]:
-        """Return which topics have the messages of several recordings, and which were kept apart.
+        """Return which topics were joined from several recordings, and which were kept separate.
 
         Args:
             topics: The topics that are copied, for each recording.
@@ -126,7 +126,7 @@ class MergedNames:
 
 
 def _namespace(name: str) -> str:
-    """Return a namespace with one slash before it and none after it; "" for none."""
+    """Return a namespace with one slash before it and none after it, or "" for none."""
     bare = name.strip("/")
     if bare and not _NAMESPACE.fullmatch(bare):
         raise ValueError(f"{name[:60]!r} is not a namespace such as /robot1")

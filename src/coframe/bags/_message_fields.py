@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Change the frame names and stamps in messages of any type; all other bytes stay as they are where possible.
+"""Change the frame names and stamps in messages of any type. Other bytes are not changed where possible.
 
 Nearly all messages have one header, at their beginning. Its stamp is changed in place. A frame name of another length
 moves the rest of the message, which is copied if the numbers in it stay aligned. Other messages are decoded and
@@ -57,7 +57,7 @@ class FrameFields:
 
     @classmethod
     def of(cls, channel: Channel, types: RecordedTypes) -> FrameFields | None:
-        """Return the frame names of a channel's messages; None if they have none or cannot be decoded."""
+        """Return the frame names of a channel's messages, or None if they have none or cannot be decoded."""
         message_class = _class_of(channel, types)
         return cls(message_class) if message_class is not None and FrameNames(message_class).exist else None
 
@@ -91,7 +91,7 @@ class FrameFields:
         return b"".join((data[:_NAME_LENGTH], length, new, bytes(new_start - new_end + 1), data[start:])), 1
 
     def of_header(self, data: bytes) -> str:
-        """Return the frame that the header of a message names; "" if it has no header.
+        """Return the frame that the header of a message names, or "" if it has no header.
 
         Raises:
             DecodeError: The bytes are damaged.
@@ -132,12 +132,12 @@ class StampFields:
 
     @classmethod
     def of(cls, channel: Channel, types: RecordedTypes) -> StampFields | None:
-        """Return the stamps of a channel's messages; None if they have none or cannot be decoded."""
+        """Return the stamps of a channel's messages, or None if they have none or cannot be decoded."""
         return cls.of_class(_class_of(channel, types))
 
     @classmethod
     def of_class(cls, message_class: Any) -> StampFields | None:
-        """Return the stamps of messages; None if they have none, or their class is unknown (None)."""
+        """Return the stamps of messages, or None if they have no stamps or their class is unknown (None)."""
         return cls(message_class) if message_class is not None and _stamps(message_class, {}) else None
 
     @property
@@ -154,7 +154,7 @@ class StampFields:
         return _read_stamp(data)[1]
 
     def change(self, data: bytes, change: Callable[[int], int]) -> tuple[bytes, int]:
-        """Replace the stamps in a message. Stamps of 0, which were never set, stay.
+        """Replace the stamps in a message, except stamps of 0, which were never set.
 
         Args:
             data: The message.
@@ -179,7 +179,7 @@ class StampFields:
 
 
 def _class_of(channel: Channel, types: RecordedTypes) -> Any:
-    """Return the class of the messages of a channel in CDR; None if it is unknown."""
+    """Return the class of the messages of a channel in CDR, or None if it is unknown."""
     if channel.encoding != "cdr":
         return None
     if not channel.definition and (known := known_class(channel.type)) is not None:

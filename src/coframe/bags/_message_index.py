@@ -125,7 +125,7 @@ class MessageIndex:
         return self._loader is not None
 
     def forget(self, topics: Iterable[str]) -> None:
-        """Forget what was computed for topics whose tracks have more messages now."""
+        """Discard cached results for topics whose tracks have new messages."""
         for topic in topics:
             for cache in (self._rows, self._stamps, self._by_stamp):
                 cache.pop(topic, None)
@@ -185,7 +185,7 @@ class MessageIndex:
         return rows.tracks[int(rows.of_track[row])].channel
 
     def first_message(self, topic: str) -> tuple[Channel, bytes] | None:
-        """Return the first message of a topic that can be read, with its channel; None if there is none."""
+        """Return the first message of a topic that can be read, with its channel, or None if there is none."""
         if self._loader is not None:
             self._check_open()
             self._loader.load_first(topic)

@@ -36,14 +36,14 @@ MARGIN: Final = 10 * time.SECOND
 def run_query(
     recording: Recording, query: TableQuery, stamps: ArrayLike | None, report: Callable[[str], object]
 ) -> Table:
-    """Return a table, for which only a part of a recording on a server is read if that gives the same rows.
+    """Return a table. If this gives the same rows, only a part of a recording on a server is read.
 
     For such a recording, a start and a stop that are strings count from the receive times.
 
     Args:
         recording: The recording.
         query: The table.
-        stamps: The times of the rows; None if the query has them.
+        stamps: The times of the rows, or None if the query has them.
         report: Called with a sentence for values that are less certain than usual.
 
     Raises:
@@ -64,7 +64,7 @@ def run_query(
 def _from_part(
     recording: Recording, query: TableQuery, stamps: ArrayLike | None, report: Callable[[str], object]
 ) -> Table | None:
-    """Return the table of a part of a recording; None if that of the whole recording may have other values."""
+    """Return the table of a part of a recording, or None if the full table may have other values."""
     first, last = (_nanoseconds(when, recording) for when in (query.start, query.stop))
     if stamps is not None and np.size(given := stamps_of(stamps)):
         first = int(np.min(given)) if first is None else first

@@ -18,7 +18,7 @@ class RecordedTopic(NamedTuple):
         name: Name of the topic.
         type: Type of its messages, such as ``sensor_msgs/msg/Imu``; as recorded if it is not a ROS type.
         messages: Number of messages.
-        rate: Messages per second; 0 for fewer than two messages or a single burst.
+        rate: Messages per second, or 0 for fewer than two messages or a single burst.
         encoding: Encoding of the messages: ``cdr``, ``ros1``, ``protobuf``, ``json``, ...
     """
 

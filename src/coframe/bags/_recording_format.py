@@ -139,7 +139,7 @@ class RecordingFormat:
         return MessageFile(path, problems, self)
 
     def open_source(self, source: Readable, problems: Problems) -> Storage | None:
-        """Open a file that has no path, such as one on a server, to read parts of it; None: `open` reads a copy of it.
+        """Open a file without a path, such as one on a server, to read parts of it. None: `open` reads a copy.
 
         Args:
             source: The file.

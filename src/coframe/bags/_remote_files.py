@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The files of a recording that is not opened by a path: one file, or those of a folder on a server."""
+"""The files of a recording without a path: one file, or the files of a folder on a server."""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ _MAX_HEADER_BYTES = 1 << 16
 
 
 class _ChunkInfo(NamedTuple):
-    """What the index says about a chunk: its offset, receive times, and messages by connection."""
+    """A chunk as listed in the index: its offset, its receive times, and its messages by connection."""
 
     offset: int
     first: int
@@ -80,7 +80,7 @@ class Ros1Storage(ChunkedStorage):
         progress(self.size)
 
     def listing(self) -> Listing | None:
-        """Return the index at the end of the file; None if there is none."""
+        """Return the index at the end of the file, or None if there is none."""
         self._read_index()
         infos = sorted(self._chunk_infos)
         ends = [*(info.offset for info in infos[1:]), self._index_start]

@@ -49,7 +49,7 @@ class _Chunk(NamedTuple):
 
 
 class TopicFacts(NamedTuple):
-    """What indexes say about a topic: its number of messages, and their rate in Hz."""
+    """The number of messages on a topic and their rate in Hz, from the indexes of the files."""
 
     messages: int
     rate: float
@@ -150,7 +150,7 @@ class ChunkReader:
         return [channel for channel in self._channels(self._index.topics()) if self._selects(channel)]
 
     def _add_chunks(self, chunks: list[_Chunk], *, ingest: bool = False) -> None:
-        """Read chunks, and add what has not been added before."""
+        """Read chunks, and add the messages that were not added before."""
         total = sum(chunk.size for chunk in chunks)
         done, changed = 0, set[str]()
         try:
@@ -195,13 +195,13 @@ def _prefetch(group: list[_Chunk]) -> None:
 
 
 def listed_span(listings: Iterable[tuple[Storage, Listing]]) -> tuple[int, int] | None:
-    """Return the first and last receive time by the indexes of files; None if they list no messages."""
+    """Return the first and last receive time by the indexes of files, or None if they list no messages."""
     chunks = [chunk for _, listing in listings for chunk in listing.chunks]
     return (min(chunk.first for chunk in chunks), max(chunk.last for chunk in chunks)) if chunks else None
 
 
 def topic_facts(listings: Iterable[tuple[Storage, Listing]]) -> dict[str, TopicFacts]:
-    """Return what the indexes of files say about topics, by name."""
+    """Return the facts about topics from the indexes of files, by name."""
     counts: dict[str, int] = {}
     chunks: dict[str, list[ListedChunk]] = {}
     for _, listing in listings:
@@ -214,7 +214,7 @@ def topic_facts(listings: Iterable[tuple[Storage, Listing]]) -> dict[str, TopicF
 
 
 def _rate(messages: int, chunks: list[ListedChunk]) -> float:
-    """Return the rate in Hz by the times of the chunks with the messages; 0 for a single burst in one of them."""
+    """Return the rate in Hz by the times of the chunks with the messages, or 0 for a single burst in one of them."""
     if messages < 2 or len(chunks) < 2:
         return 0.0
     elapsed = max(chunk.last for chunk in chunks) - min(chunk.first for chunk in chunks)

@@ -119,17 +119,17 @@ class Database:
         return number
 
     def first_row(self, table: str) -> int | None:
-        """Return the smallest row ID of a table; None if it is empty."""
+        """Return the smallest row ID of a table, or None if it is empty."""
         found = self.extremes(table, "rowid")
         return None if found is None else found[0]
 
     def extremes(self, table: str, column: str) -> tuple[int, int] | None:
-        """Return the smallest and the largest value of a column of integers; None if there are none."""
+        """Return the smallest and the largest value of a column of integers, or None if there are none."""
         low, high = self._query(f"SELECT min({column}), max({column}) FROM {table}").fetchone()  # noqa: S608 - as in `rows`
         return (low, high) if isinstance(low, int) and isinstance(high, int) else None
 
     def blob(self, table: str, column: str, row: int) -> bytes | None:
-        """Return the value of a row, or None if there is no such row, or if its value is not a BLOB."""
+        """Return the value of a row, or None if the row does not exist or its value is not a BLOB."""
         query = f"SELECT {column} FROM {table} WHERE rowid = ? AND typeof({column}) = 'blob'"  # noqa: S608 - as in `rows`
         found = self._query(query, (row,)).fetchone()
         return None if found is None else bytes(found[0])

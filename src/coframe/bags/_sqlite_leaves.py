@@ -134,7 +134,7 @@ class Leaves:
                 yield row
 
     def _row_of(self, page: bytes, pointer: int, offset: int) -> LeafRow | None:
-        """Return the row to which a cell pointer points, None if it is not one."""
+        """Return the row that a cell pointer refers to, or None if the pointer is invalid."""
         try:
             (cell,) = struct.unpack_from(">H", page, pointer)
             size, position = _varint(page, cell)

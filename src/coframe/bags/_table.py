@@ -47,7 +47,7 @@ class _NameColumn:
 
 
 class _Columns(NamedTuple):
-    """The columns of the table, one edge after the other."""
+    """The columns of the table, ordered by edge."""
 
     stamps: NDArray[np.int64]
     parent: _NameColumn

@@ -175,7 +175,7 @@ def _nanoseconds(when: int | str | None, recording: Recording) -> int | None:
 
 
 def stamps_at_rate(span: tuple[int, int], start: int | None, stop: int | None, rate: float) -> NDArray[np.int64]:
-    """Return times at a rate in Hz in the part of an interval between two times; they begin at its first time."""
+    """Return times at a rate in Hz that start at the first time of an interval, limited to a time range."""
     first = span[0] if start is None else max(start, span[0])
     last = span[1] if stop is None else min(stop, span[1])
     if last < first:

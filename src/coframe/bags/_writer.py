@@ -248,7 +248,7 @@ class Writer:
 
     @property
     def incomplete(self) -> list[str]:
-        """Topics with too many latched messages to repeat all of them at the beginning of each file."""
+        """Topics with more latched messages than can be repeated at the beginning of each file."""
         return [topic.name for topic in self._contents.topics if topic.latched and topic.latched.omitted]
 
     def close(self) -> None:

@@ -76,7 +76,7 @@ def _has_fields(cls: Any, recorded: Any) -> bool:
 
 
 def _with_fields(cls: Any, message: Any) -> Any:
-    """Return a message of a class with the values of another one, whose fields the class has."""
+    """Copy the values of a message to a new message of a class with the same fields."""
     if isinstance(message, cls):
         return message
     names = {slot.lower(): slot[1:] for slot in cls.__slots__}

@@ -161,7 +161,7 @@ def copy_recordings(
 
 
 def _shifts(recordings: list[Recording], offsets: Sequence[str | None] | None) -> list[ClockShift | None]:
-    """Return the shift of each recording; None for those that keep their times."""
+    """Return the shift of each recording, or None for those that keep their times."""
     if offsets is None:
         return [None] * len(recordings)
     if len(offsets) != len(recordings):

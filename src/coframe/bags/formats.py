@@ -81,7 +81,7 @@ class Sqlite(RecordingFormat):
     storage_id = "sqlite3"
 
     def matches(self, path: Path, beginning: bytes) -> bool:
-        """Return whether a file is a database, or one whose first page was lost: the others have the messages."""
+        """Return whether a file is a database, possibly without its first page: other pages contain the messages."""
         if beginning != bytes(len(self.magic)) or path.suffix.lower() not in self.suffixes:
             return super().matches(path, beginning)
         from coframe.bags._sqlite_leaves import has_leaves_of_recording  # noqa: PLC0415 - see the base class
@@ -156,7 +156,7 @@ def formats() -> tuple[RecordingFormat, ...]:
 
 
 def _find_problem(loaded: Any, others: list[RecordingFormat]) -> str:
-    """Return why an object is not the class of a new format, as the rest of a sentence, or "" if it is one."""
+    """Return why an object is not a valid format class, as the end of a sentence, or "" if it is valid."""
     if not (isinstance(loaded, type) and issubclass(loaded, RecordingFormat)):
         return "is not a subclass of coframe.bags.RecordingFormat"
     name, endings = getattr(loaded, "name", None), getattr(loaded, "suffixes", None)

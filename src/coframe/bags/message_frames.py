@@ -57,7 +57,7 @@ class FrameNames:
 
     @property
     def only_in_header(self) -> bool:
-        """Whether the only frame name is that of a header at the beginning of the messages."""
+        """Whether the only frame name is in a header at the beginning of the messages."""
         first = self._class.SLOT_TYPES[0] if self._class.SLOT_TYPES else None
         is_header = isinstance(first, NamespacedType) and "/".join(first.namespaced_name()) == _HEADER
         return is_header and self._plan == {self._class.__slots__[0][1:]: {"frame_id": None}}

@@ -256,7 +256,7 @@ class Recording:
         return self._read_all(name, np.flatnonzero(chosen))
 
     def message_in_row(self, topic: str, row: int) -> RecordedMessage | None:
-        """Return a message by its number in receive order; None if it can no longer be read.
+        """Return a message by its number in receive order, or None if it can no longer be read.
 
         Args:
             topic: The name, with or without its leading slash.
@@ -628,14 +628,14 @@ class Recording:
         return self._index.is_waiting and "_buffers" not in self.__dict__
 
     def part(self, window: TimeWindow) -> Recording:
-        """Return a part of a recording on a server, which is closed with this one."""
+        """Return a part of a recording on a server. It is closed together with this recording."""
         if self._part is None or self._part.window != window:
             self._part = open_with_choice(self.path, self.choice, window=window)
             self._part.disown()
         return self._part
 
     def disown(self) -> None:
-        """Leave the files open when this recording is closed, because they belong to another one."""
+        """Keep the files open when this recording is closed, because another recording owns them."""
         self._closing.pop_all()
 
     def __reduce__(self) -> tuple[object, ...]:

@@ -102,7 +102,7 @@ class ListedChunk(NamedTuple):
         end: Where it ends.
         first: Receive time of its first message, in nanoseconds.
         last: Receive time of its last message, in nanoseconds.
-        channels: The channels of its messages; None if the index does not list them.
+        channels: The channels of its messages, or None if the index does not list them.
         unpacked: Its size after unpacking, in bytes.
     """
 
@@ -115,7 +115,7 @@ class ListedChunk(NamedTuple):
 
 
 class Listing(NamedTuple):
-    """The index of a file, from which its chunks can be read without those between them.
+    """The index of a file, which gives access to single chunks.
 
     Attributes:
         chunks: All chunks that contain messages, in file order.
@@ -157,7 +157,7 @@ class Storage(ABC):
         """
 
     def listing(self) -> Listing | None:
-        """Return the index of the file; None if it has none, so that `batches` has to read everything."""
+        """Return the index of the file, or None if it has none, so that `batches` has to read everything."""
         return None
 
     def read_chunk(self, chunk: ListedChunk) -> Iterator[Batch]:
@@ -190,7 +190,7 @@ class Storage(ABC):
 
 
 def are_consistent(chunks: list[ListedChunk], begin: int, size: int) -> bool:
-    """Return whether chunks that an index lists can be those of a file: inside of it, one after the other.
+    """Return whether the chunks in an index are plausible: inside the file and not overlapping.
 
     Args:
         chunks: In file order.

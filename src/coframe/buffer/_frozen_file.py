@@ -65,7 +65,7 @@ class Header(NamedTuple):
         version: Version of the format.
         table_crc: CRC-32 of the table.
         samples_crc: CRC-32 of the samples.
-        covariances_crc: CRC-32 of the covariances, which follow the table; 0 if there are none.
+        covariances_crc: CRC-32 of the covariances, which follow the table, or 0 if there are none.
         cache: Cache length of the buffer in nanoseconds; negative if it kept everything.
         samples: Position of the samples.
         samples_size: Size of the samples in bytes.

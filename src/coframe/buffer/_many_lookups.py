@@ -329,7 +329,7 @@ def _check_out_options(limit: int | None, on_gap: OnGap, *, covariance: bool) ->
 
 
 def _freeze(rows: Array, times: NDArray[np.int64], extrapolated: NDArray[np.int64] | None) -> None:
-    """Make the arrays of a result read-only, and with them all views of the rows."""
+    """Make the arrays of a result and all views of their rows read-only."""
     rows.flags.writeable = False
     times.flags.writeable = False
     if extrapolated is not None:

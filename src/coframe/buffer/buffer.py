@@ -357,7 +357,7 @@ class Buffer(_many_lookups.Buffer):
         return copy
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle the transforms of this moment; the copy in the other process is frozen."""
+        """Pickle the current transforms. The copy in the other process is frozen."""
         from coframe.buffer.frozen import restore_buffer  # noqa: PLC0415 - it imports this module
 
         return restore_buffer, (_frozen_file.content_of(self.snapshot()), self.interpolation)

@@ -61,7 +61,7 @@ class Dispatcher:
         _all.add(self)
 
     def reset(self) -> None:
-        """Drop all waits and watches; also in a forked process, where the thread is gone but its locks may be held."""
+        """Drop all waits and watches, also in a forked process, which has no thread but may have held locks."""
         self._mailbox = _core.Mailbox()
         # The locks are reentrant, because finalizers and signal handlers can run while a thread holds one.
         self._lock = threading.RLock()  # Guards the attributes below; no callback is called while it is held.
@@ -241,7 +241,7 @@ class Dispatcher:
 
 
 def _run(reference: weakref.ref[Dispatcher], mailbox: _core.Mailbox) -> None:
-    """Run the thread of a dispatcher; while it sleeps, it does not keep the dispatcher alive."""
+    """Run the thread of a dispatcher, without keeping the dispatcher alive while it sleeps."""
     while True:
         dispatcher = reference()
         try:

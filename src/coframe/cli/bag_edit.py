@@ -54,7 +54,7 @@ _HELP = {
 
 
 class _EditCommand(Command):
-    """Takes the rules from the command line in their order, including those of several words."""
+    """Reads the rules from the command line in order, including rules of several words."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Remove the rules from the words, then parse the others as usual."""

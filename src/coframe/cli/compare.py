@@ -177,7 +177,7 @@ def _offset(numbers: tuple[float, ...] | None) -> Transform | None:
 
 
 def _unused_name(name: str, names: Container[str]) -> str:
-    """Return a name with a number behind it if it is already used."""
+    """Return a name, with a number appended if it is already used."""
     return name if name not in names else next(n for i in range(2, 1000) if (n := f"{name} ({i})") not in names)
 
 

@@ -49,7 +49,7 @@ PASS_ARGUMENTS_ON: Final = {"ignore_unknown_options": True, "allow_extra_args": 
 
 
 class Argument(click.Argument):
-    """An argument with a help text, or with a function that returns it."""
+    """An argument with a help text, or with a function that returns its help text."""
 
     def __init__(self, names: list[str], *, help: str | Callable[[], str] = "", **attributes: Any) -> None:  # noqa: A002 - click's name
         super().__init__(names, **attributes)

@@ -35,7 +35,7 @@ __all__ = ["fix_recording", "print_recipe"]
 
 
 def print_recipe(reports: dict[str, Report]) -> None:
-    """Print the recipe for what has one safe repair, and the choices that the rest needs as comments."""
+    """Print the recipe of the safe repairs, and as comments the choices that other problems need."""
     plan = plan_repair(reports.values())
     print(printable(str(plan.recipe)), end="")
     for line in _choices(plan):
@@ -88,7 +88,7 @@ def fix_recording(
 
 
 def _readable(bag: Path, recipe: Recipe, closing: ExitStack) -> tuple[Path, list[str]]:
-    """Return the recording, or a copy of what can be read of a damaged one, and what is damaged and was repaired."""
+    """Return the recording, or a copy of the readable part of a damaged one, and lists of damage and repairs."""
     try:
         with reading_progress() as progress:
             edit_recording(bag, None, recipe, progress=progress)
@@ -127,7 +127,7 @@ def _print_choices(plan: RepairPlan) -> None:
 
 
 def _quote_rule(rule: str) -> str:
-    """Return a rule as it is written in a shell."""
+    """Return a rule with the quoting that a shell needs."""
     name, _, value = rule.partition(" ")
     return rule if name in {"set-static", "replace-mount"} or not value else f"{name} {shlex.quote(value)}"
 

@@ -64,7 +64,7 @@ def _arguments(command: click.Command, ctx: click.Context) -> Iterator[click.Arg
 
 
 def _text(argument: click.Argument) -> str:
-    """Return the text of an argument, which a function computes if it depends on what is installed."""
+    """Return the help text of an argument, which a function computes if it depends on installed packages."""
     text = getattr(argument, "help", None) or ""
     return str(text() if callable(text) else text)
 

@@ -142,7 +142,7 @@ def topic_name(name: str) -> str:
 
 
 def checked_prefix(prefix: str) -> str:
-    """Return the prefix. Warn if it does not end with a slash, or end the command if it begins with one."""
+    """Return the prefix. Warn if it does not end with a slash. End the command if it begins with a slash."""
     try:
         frame_names.renaming(prefix)
     except ValueError as error:

@@ -31,7 +31,7 @@ EARLIEST_WALL_TIME = 10 * 365 * DAY
 def open_recording(
     path: str | Readable, choice: TransformChoice, on_transforms: Callable[..., object] | None = None
 ) -> Iterator[Recording]:
-    """Open a recording with a progress bar; print on stderr what could not be read."""
+    """Open a recording with a progress bar, and print problems on stderr."""
     with ExitStack() as closing:
         with reading_progress() as progress:
             recording = closing.enter_context(
@@ -49,7 +49,7 @@ def open_recording(
 
 
 def title_of(bag: Readable) -> str:
-    """Return the name of a recording, also of one in the current folder."""
+    """Return the name of a recording, which may be the current folder."""
     return bag.resolve().name if isinstance(bag, Path) else bag.name
 
 

@@ -46,7 +46,7 @@ class Rosbag2Words(NamedTuple):
     refused: Mapping[str, str] = MappingProxyType({})
 
     def translate(self, args: list[str]) -> list[str]:
-        """Return the words of the command line as those of coframe, or end the command at an option that is refused."""
+        """Translate the command line to coframe's options, or end the command if an option is not supported."""
         words: list[str] = []
         repeated = ""  # the option that takes the words up to the next option
         skipped = 0

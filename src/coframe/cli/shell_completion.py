@@ -100,7 +100,7 @@ def _ancestors() -> Iterator[str]:
 
 
 def _name_and_parent(process: int) -> tuple[str, int]:
-    """Return the name of a process and its parent's ID; nothing if unknown."""
+    """Return the name of a process and its parent's ID, or nothing if unknown."""
     try:
         start, _, rest = Path(f"/proc/{process}/stat").read_text(encoding="utf-8", errors="replace").rpartition(")")
         return start.partition("(")[2], int(rest.split()[1])

@@ -182,7 +182,7 @@ def _answer_live(config: ListenerConfig, target: str, source: str, at: str | Non
 
 
 def _answer(found: Explanation, seen: Sequence[Observation], notes: Iterable[str]) -> _Answer:
-    """Return the explanation with the findings about its edges; what arrives with old stamps is not stale."""
+    """Return the explanation with the findings about its edges. Edges that still arrive are not stale."""
     alive = {edge.key for one in seen if one.live for edge in one.dynamic if not one.is_stale(edge)}
     edges = (edge._replace(stale=False) if (edge.parent, edge.child) in alive else edge for edge in found.edges)
     found = replace(found, edges=tuple(edges))

@@ -82,7 +82,7 @@ class OwnReceiver:
 
 
 class SharedReceiver:
-    """The transforms that one process of this user receives for all.
+    """The transforms that one process of this user receives for all its processes.
 
     Attributes:
         transforms: The shared transforms.
@@ -116,7 +116,7 @@ class SharedReceiver:
 
     @property
     def participant(self) -> Participant:
-        """The participant of the subscriptions. If another process receives the transforms, that of the connection."""
+        """The participant of the subscriptions, or of the connection if another process receives the transforms."""
         own = self.transforms.participant
         return own if own is not None else self._join_participant()
 

@@ -106,7 +106,7 @@ class Connection:
         return MessagePublisher(native, message_type)
 
     def publish(self, topic: str, message: Message) -> None:
-        """Publish a message. Any thread, also that of an event loop, may call this.
+        """Publish a message. Any thread may call this, including the thread of an event loop.
 
         The first message of a topic creates its publisher, which is reliable with a depth of 10. Subscriptions that
         discover the publisher later do not receive that message; :meth:`publisher` creates one earlier.

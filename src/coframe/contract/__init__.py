@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Contracts: what a good recording of a robot contains, as a file that CI checks.
+"""Contracts: files that state what a good recording of a robot contains, for checks in CI.
 
 Example:
     >>> from coframe.contract import parse_contract

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Compare what was measured with the requirements of a contract."""
+"""Compare measurements with the requirements of a contract."""
 
 from __future__ import annotations
 
@@ -127,7 +127,7 @@ def _topic_problems(required: TopicRequirement, measurement: Measurement) -> Ite
 
 
 def _frames_of(topic: str, measurement: Measurement) -> list[str] | None:
-    """Return the frames of the messages on a topic; None if they are unknown."""
+    """Return the frames of the messages on a topic, or None if they are unknown."""
     sensors = [each for one in measurement.observations.values() for each in one.sensors]
     if frames := sorted({each.frame for each in sensors if each.topic == topic}):
         return frames

@@ -29,10 +29,10 @@ class TransformRequirement:
         child: The child frame.
         namespace: The namespace of the topics with its transforms: ``""`` for /tf, ``/robot1`` for /robot1/tf.
         static: Whether it must be published as a static transform.
-        xyz: The position in meters; None if any is accepted.
-        rpy: Roll, pitch and yaw in radians; None if any rotation is accepted.
+        xyz: The position in meters, or None if any is accepted.
+        rpy: Roll, pitch and yaw in radians, or None if any rotation is accepted.
         tolerance: The largest accepted differences from `xyz` and `rpy`, in meters and radians.
-        min_rate: The minimum rate in Hz, from the first transform to the last one; None for no minimum.
+        min_rate: The minimum rate in Hz, from the first transform to the last one, or None for no minimum.
         max_gap: The maximum time between two transforms, and from the last one to the end, in nanoseconds.
     """
 
@@ -53,9 +53,9 @@ class TopicRequirement:
 
     Attributes:
         name: The name of the topic.
-        type: The type of its messages, such as ``sensor_msgs/msg/LaserScan``; "" for any.
-        frame: The frame in the headers of its messages; "" for any.
-        min_rate: The minimum rate in Hz, from the first message to the last one; None for no minimum.
+        type: The type of its messages, such as ``sensor_msgs/msg/LaserScan``, or "" for any.
+        frame: The frame in the headers of its messages, or "" for any.
+        min_rate: The minimum rate in Hz, from the first message to the last one, or None for no minimum.
         max_gap: The maximum time between two messages, and from the last one to the end, in nanoseconds.
         reliable: Whether its publishers must be reliable.
         transient_local: Whether its publishers must be transient local.
@@ -109,7 +109,7 @@ class Contract:
         availability: Transforms that must be available soon after messages arrive.
         clock: The clock of the stamps: ``wall``, ``simulated`` or ``any``.
         other_frames: Whether frames that no requirement names are accepted.
-        fail_on: The lowest severity of the doctor's findings that breaks the contract; None if none does.
+        fail_on: The lowest severity of the doctor's findings that breaks the contract, or None if none does.
         ignore: The codes of the doctor whose findings are accepted.
     """
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Derive a contract from a good recording, with margins for what differs between recordings of one robot."""
+"""Derive a contract from a good recording, with margins for differences between recordings of one robot."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ def _topic(topic: MeasuredTopic, measurement: Measurement) -> TopicRequirement:
 
 
 def _limits(pace: Pace) -> tuple[float | None, int | None]:
-    """Return the required rate and the accepted gap; None for what is published irregularly."""
+    """Return the required rate and the accepted gap, or None for what is published irregularly."""
     if pace.messages < _MIN_MESSAGES or pace.rate is None or pace.max_gap is None or not pace.median:
         return None, None
     if pace.max_gap > _MAX_IRREGULARITY * pace.median:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Measurement: what a recording or a running system contains, in the terms of a contract."""
+"""Measurement: the contents of a recording or a running system that a contract refers to."""
 
 from __future__ import annotations
 
@@ -34,10 +34,10 @@ class Pace:
 
     Attributes:
         messages: The number of messages.
-        rate: Messages per second from the first one to the last one; None for fewer than two.
-        max_gap: The longest time between two messages, and from the last one to the end, in nanoseconds; None if
+        rate: Messages per second from the first one to the last one, or None for fewer than two.
+        max_gap: The longest time between two messages, and from the last one to the end, in nanoseconds, or None if
             it is unknown.
-        median: The median time between two messages; None for fewer than two.
+        median: The median time between two messages, or None for fewer than two.
     """
 
     messages: int
@@ -48,7 +48,7 @@ class Pace:
 
 @dataclass(frozen=True)
 class MeasuredTopic:
-    """A topic, its pace, the frame of its messages, and the QoS that all its publishers offer; None if unknown.
+    """A topic, its pace, the frame of its messages, and the QoS of all its publishers. Unknown values are None.
 
     The frame is that of the first message, and "" if the message names none.
     """
@@ -153,7 +153,7 @@ def _recorded_topics(recording: Recording) -> dict[str, MeasuredTopic]:
 
 
 def _common(offers: list[tuple[bool, bool]]) -> tuple[bool | None, bool | None]:
-    """Return what all publishers offer: whether all are reliable, and whether all are transient local."""
+    """Return whether all publishers are reliable, and whether all are transient local."""
     if not offers:
         return None, None
     return all(reliable for reliable, _ in offers), all(latched for _, latched in offers)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Read a contract from YAML; every mistake in it is an error that names its place."""
+"""Read a contract from YAML. Errors state the position of each mistake."""
 
 from __future__ import annotations
 
@@ -148,7 +148,7 @@ def _read_ignored_code(entry: _MappingReader) -> IgnoredCode:
 
 
 class _MappingReader:
-    """A mapping of the document, whose keys are taken one after the other."""
+    """Reads a mapping of the document key by key."""
 
     def __init__(self, data: Any, name: str, place: str) -> None:
         self._name, self._place = name, place
@@ -182,7 +182,7 @@ class _MappingReader:
         return value
 
     def text(self, key: str, default: str | None = None) -> str:
-        """Return a text; without a default, it is required."""
+        """Return a string. It is required unless a default is given."""
         value: str | None = self.take(key, str, "a text", default)
         if value is None or (default is None and not value):
             raise self.error(key, "is missing")
@@ -196,14 +196,14 @@ class _MappingReader:
         return value
 
     def positive(self, key: str) -> float | None:
-        """Return a number greater than 0; None if it is missing."""
+        """Return a number greater than 0, or None if it is missing."""
         value = self.take(key, cast("type[float]", (int, float)), "a number", None)
         if value is not None and not 0 < value < math.inf:
             raise self.error(key, f"must be greater than 0, not {value!r:.{_MAX_SHOWN}}")
         return None if value is None else float(value)
 
     def vector(self, key: str) -> tuple[float, float, float] | None:
-        """Return three numbers; None if they are missing."""
+        """Return three numbers, or None if they are missing."""
         values = self.take(key, list, "three numbers", None)
         if values is None:
             return None
@@ -212,11 +212,11 @@ class _MappingReader:
         return float(values[0]), float(values[1]), float(values[2])
 
     def duration(self, key: str) -> int | None:
-        """Return a duration in nanoseconds; None if it is missing."""
+        """Return a duration in nanoseconds, or None if it is missing."""
         return self.parsed(key, duration_ns, None)
 
     def parsed(self, key: str, parse: Callable[[str], _Value], default: str | None) -> _Value | None:
-        """Return the result of a parser for a text; None if it is missing and has no default."""
+        """Return the parsed string of a key, or None if it is missing and has no default."""
         text = self.take(key, str, "a text with a unit", default)
         if text is None:
             return None
@@ -230,7 +230,7 @@ class _MappingReader:
         return _MappingReader(self.take(key, dict, "a mapping", {}), self._name, f"{self._place}.{key}".lstrip("."))
 
     def mappings(self, key: str, *labels: str) -> Iterator[_MappingReader]:
-        """Yield the mappings of a list; errors name them by their number and by the values of some keys."""
+        """Yield the mappings of a list. Errors name a mapping by its number and the values of some keys."""
         for number, data in enumerate(self.take(key, list, "a list", [])):
             known = [str(data.get(label))[:_MAX_SHOWN] for label in labels] if isinstance(data, dict) else []
             label = f" ({' -> '.join(known)})" if known else ""

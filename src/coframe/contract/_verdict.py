@@ -32,7 +32,7 @@ class Verdict(NamedTuple):
     Attributes:
         source: The path of the recording; ``live`` for the running system.
         results: The result of each requirement; empty if the recording cannot be read.
-        unreadable: Why the recording cannot be read; "" if it can.
+        unreadable: Why the recording cannot be read, or "" if it can.
         unread: What of the recording could not be read, and so was not checked.
     """
 
@@ -64,7 +64,7 @@ class Verdict(NamedTuple):
         )
 
     def text(self) -> str:
-        """Return a summary, a line for each problem, and a line for each thing that was not checked."""
+        """Return a summary, and a line for each problem and each requirement that was not checked."""
         if self.unreadable:
             return f"{self.source}: {one_line(self.unreadable)}"
         met = len(self.results) - len(self.broken)
@@ -81,7 +81,7 @@ def check_recording(
     *,
     progress: Callable[[int, int], object] | None = None,
 ) -> Verdict:
-    """Check one recording; a recording that cannot be read is a verdict, too.
+    """Check one recording. If it cannot be read, the verdict says so.
 
     Args:
         contract: The contract.

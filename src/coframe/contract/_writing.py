@@ -113,7 +113,7 @@ def _value(value: Any) -> str:
 
 
 def _number(value: float) -> str:
-    """Return a number without an exponent: YAML 1.1 reads 1e-05 as a text."""
+    """Return a number without an exponent, because YAML 1.1 reads 1e-05 as a string."""
     digits = f"{value:.9f}".rstrip("0")
     return f"{digits}0" if digits.endswith(".") else digits
 

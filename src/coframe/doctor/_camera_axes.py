@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The axes of optical frames: which way a camera looks on its robot, and what would make an impossible mount right.
+"""The axes of optical frames: the view direction of a camera, and corrections of impossible mounts.
 
 By REP-103, the z axis of an optical frame points forward, its x axis to the right and its y axis down in the image.
 """

@@ -53,7 +53,7 @@ CAUSES: tuple[tuple[str, str, bool], ...] = (
 
 
 def group_by_cause(findings: list[Finding]) -> list[Finding]:
-    """Return the causes with their consequences, the worst first. Each consequence is below one cause only."""
+    """Return the causes with their consequences, the worst first. Each consequence is below only one cause."""
     causes = _causes(findings)
     below: dict[int, list[Finding]] = {}
     for position, cause in causes.items():

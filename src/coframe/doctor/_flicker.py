@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Flicker: an edge that alternates between two poses, as if two publishers disagree, and what explains a jump."""
+"""Flicker: an edge that alternates between two poses, as if two publishers disagree. Also explains jumps."""
 
 from __future__ import annotations
 

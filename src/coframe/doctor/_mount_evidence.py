@@ -62,7 +62,7 @@ class Contradiction(NamedTuple):
 
 
 def gravity_contradictions(observation: Observation) -> Iterator[Contradiction]:
-    """Yield mounts with which the acceleration of an IMU at rest does not point up, but would by a usual mistake."""
+    """Yield mounts with which the acceleration of an IMU at rest points up only if a mistake is corrected."""
     seen: set[str] = set()
     for imu in observation.imus:
         up = _acceleration_at_rest(imu)
@@ -100,7 +100,7 @@ def gravity_contradictions(observation: Observation) -> Iterator[Contradiction]:
 
 
 def points_contradictions(observation: Observation) -> Iterator[Contradiction]:
-    """Yield mounts with which the scans of a moving lidar do not fit together, but would by a usual mistake."""
+    """Yield mounts with which the scans of a moving lidar match only if a mistake is corrected."""
     for sensor in observation.sensors:
         chain = observation.mounts(sensor.frame)
         scans = _window(sensor.points)

@@ -28,7 +28,7 @@ _MIN_MOTION = 0.05  # meters or radians; poses at rest could match by chance
 
 
 def odometry_contradictions(observation: Observation) -> Iterator[tuple[Edge, str, str]]:
-    """Yield edges that agree with an odometry topic only if a mistake is assumed, with the text and what to do."""
+    """Yield edges that agree with an odometry topic only if a mistake is assumed, with a description and a fix."""
     for poses in observation.poses:
         edge = next((one for one in observation.dynamic if one.key == (poses.frame, poses.child)), None)
         if edge is None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rules of `coframe bag edit` that repair what checks find in recordings, as text."""
+"""The rules of `coframe bag edit` that repair problems in recordings, as strings."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def rename_frame(old: str, new: str) -> str:
 
 
 def shift(subject: str | _Edge, offset: float) -> str:
-    """Return the rule that moves stamps that are behind their arrival by an offset in nanoseconds.
+    """Return the rule that corrects stamps that are an offset in nanoseconds before their arrival.
 
     An offset of whole hours is the mistake; what remains is the usual delay. Others are rounded to milliseconds.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The points of a few messages of a lidar: when its sweeps end, and what its mount can be compared with."""
+"""The points of a few lidar messages, to find the end of its sweeps and to check its mount."""
 
 from __future__ import annotations
 

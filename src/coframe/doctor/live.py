@@ -86,7 +86,7 @@ class _Delays(NamedTuple):
 
 
 class _Topic:
-    """A subscribed topic other than those of transforms, with the received data."""
+    """A subscribed topic without transforms, with the received data."""
 
     def __init__(self, name: str, ros_type: str, subscription: BatchSubscription) -> None:
         self.name = name
@@ -279,7 +279,7 @@ class LiveObserver:
             self._writers[handle] = _Writer(full_name(endpoint.namespace, endpoint.node), endpoint.guid[:12])
 
     def _node_of(self, handle: int) -> str:
-        """Return the full name of a writer's node; "" until it is known, which may be after its first messages.
+        """Return the full name of a writer's node, or "" until it is known. This may be after its first messages.
 
         If several processes have a node with the same name, the name of the second one ends with "(copy 2)".
         """

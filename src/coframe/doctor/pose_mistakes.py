@@ -102,7 +102,7 @@ class Explanation(NamedTuple):
         return self.rank < _FIRST_AMBIGUOUS_RANK and not np.isnan(self.meters + self.radians)
 
     def text(self, other: str, pose: str = "the pose") -> str:
-        """Return the explanation as a sentence: with what the pose agrees, within what, and under which condition."""
+        """Return the explanation as a sentence: the mistake, the remaining difference, and the condition."""
         subject, within = pose, f"{_length(self.meters)} and {_angle(self.radians)}"
         if np.isnan(self.meters):
             subject, within = f"the rotation of {pose}", _angle(self.radians)
@@ -112,7 +112,7 @@ class Explanation(NamedTuple):
 
 
 class Correction(NamedTuple):
-    """What a published pose (7,) may have been meant to be, by one mistake."""
+    """A pose (7,) that may have been intended instead of the published one, by one mistake."""
 
     reading: str
     fix: str
@@ -173,7 +173,7 @@ def explain_mutual_difference(
 
 
 def corrections(pose: Array) -> Iterator[Correction]:
-    """Yield what a published pose (7,) may have been meant to be, by each usual mistake.
+    """Yield the poses (7,) that may have been intended instead of the published one, by each common mistake.
 
     The caller compares them with other data: gravity, the points of a lidar, or the axes of a camera.
     """
@@ -238,7 +238,7 @@ def _first(
     limit: float,
     measure: Callable[[Array, Array], float],
 ) -> _MistakeFit | None:
-    """Return the first mistake that explains the difference, with what remains."""
+    """Return the first mistake that explains the difference, with the remaining difference."""
     before = measure(published, expected)
     for rank, mistake in enumerate(mistakes):
         undone = [measure(candidate, expected) for candidate in mistake.undo_mistake(published)]

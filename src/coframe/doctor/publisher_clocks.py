@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The clock of each moving edge and each sensor: how far its stamps are behind their arrival, and how they drift."""
+"""The clock of each moving edge and each sensor: the offset of its stamps from their arrival, and its drift."""
 
 from __future__ import annotations
 

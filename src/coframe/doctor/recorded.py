@@ -75,7 +75,7 @@ def observe_recording(
 
     Args:
         path: A file, the folder of a rosbag2 recording, or its URL.
-        namespace: Only the transforms of this namespace; None for all.
+        namespace: Only the transforms of this namespace, or None for all.
         tf_topic: Only the transforms of this topic and of ``tf_static_topic``, as those of one robot in the namespace
             of this topic. None means all topics, or ``/tf`` if only the other topic is given.
         tf_static_topic: Only the transforms of this topic and of ``tf_topic``. None: all, or ``/tf_static``.
@@ -100,7 +100,7 @@ def observe_chosen(
     progress: Callable[[int, int], object] | None = None,
     examine: Callable[[Recording], object] | None = None,
 ) -> dict[str, Observation]:
-    """Return what :func:`observe_recording` returns, given the choice of transforms as one value.
+    """Return the same as :func:`observe_recording`, with the choice of transforms as one value.
 
     `examine` is called with the open recording, for callers that also need other data of it.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The repair of a recording: the rules for what has one safe repair, and the choices that the rest needs."""
+"""The repair of a recording: rules for problems with one safe repair, and choices for the others."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class RepairPlan(NamedTuple):
 
 
 def plan_repair(reports: Iterable[Report]) -> RepairPlan:
-    """Return what repairs the warnings and errors of reports about a recording, one report for each namespace.
+    """Return the repair plan for reports about a recording, one report for each namespace.
 
     If two findings need different values for the same thing, such as two poses of one mount, they become choices.
     """

@@ -260,7 +260,7 @@ class DecodeError(_HintedError, ValueError):
 
 
 class _FileError(_HintedError, ValueError):
-    """Base class of errors in a text file.
+    """Base class of errors about the contents of a text file.
 
     Attributes:
         line: Line number, counted from 1, or None if the problem has no single line.

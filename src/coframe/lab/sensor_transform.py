@@ -95,7 +95,7 @@ class SensorTransformNode(Node):
         self.process_waiting()
 
     def process_waiting(self) -> None:
-        """Publish the scans whose transform is available, and drop those that have waited too long."""
+        """Publish the scans whose transform is available, and drop scans that have waited too long."""
         now = self.get_clock().now()
         still_waiting: deque[WaitingScan] = deque()
         for waiting in self.waiting:

@@ -48,7 +48,7 @@ def other_forms(text: str) -> dict[str, str]:
 
 
 def _split_definitions(text: str) -> Iterator[tuple[str, str, str]]:
-    """Yield the name, the distribution ("" for the default form) and the text of each definition."""
+    """Yield the name, the distribution ("" for the default) and the text of each definition."""
     for piece in f"\n{text}".split(f"\n{_HEADER}")[1:]:
         key, _, definition = piece.partition("\n")
         name, _, variant = key.partition(" ")

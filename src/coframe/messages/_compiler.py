@@ -77,7 +77,7 @@ class Compiler(ABC):
 
     @contextmanager
     def block(self, line: str) -> Iterator[None]:
-        """Add a line that opens a block. Lines that are added in the context belong to the block."""
+        """Add a line that opens a block. Lines that are added inside the context are part of the block."""
         self.emit(line)
         self.indent += 1
         yield

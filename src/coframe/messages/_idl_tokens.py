@@ -37,7 +37,7 @@ class Token(NamedTuple):
 
 
 class Tokens:
-    """The tokens of a text, read one after the other.
+    """The tokens of a document, read in order.
 
     Args:
         text: The text of an IDL file.

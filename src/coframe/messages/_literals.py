@@ -27,7 +27,7 @@ _FLOAT32_BOUND = 3.402823466e38
 
 
 def parse_literal(text: str, type_: AbstractType) -> Any:
-    """Return the value that a ``.msg`` file gives as text.
+    """Return the value of a literal in a ``.msg`` file.
 
     Raises:
         ValueError: The text is not a value of the type.

@@ -103,7 +103,7 @@ class Rules(NamedTuple):
 
 
 def parse(text: str, package: str, parts: int = 1, *, file: str | None = None) -> list[MessageStructure]:
-    """Parse the text of a definition file.
+    """Parse the contents of a definition file.
 
     Args:
         text: The content of the file.
@@ -203,7 +203,7 @@ def _parse_line(content: str, package: str, rules: Rules) -> Field | Constant:
 
 
 def truncate(text: str) -> str:
-    """Truncate a text for an error message."""
+    """Truncate text for an error message."""
     longest = 200
     return text if len(text) <= longest else f"{text[:longest]}..."
 

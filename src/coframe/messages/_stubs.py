@@ -28,7 +28,7 @@ _PROTOCOL = (
 
 
 def value_type(type_: AbstractType) -> AbstractType:
-    """Return the type of the values of an array or sequence; other types as they are."""
+    """Return the element type of an array or sequence, and other types unchanged."""
     return type_.value_type if isinstance(type_, AbstractNestedType) else type_
 
 

@@ -120,7 +120,7 @@ def _deserialize_if_other_form(data: bytes, cls: type[M]) -> M | None:
 
 
 def deserialize_other_form(data: bytes, cls: type[M]) -> M | None:
-    """Return a message of the definition that another distribution has, as one of `cls`, or None if it is not one.
+    """Decode a message with the definition of another distribution as `cls`, or return None if it does not fit.
 
     Args:
         data: The bytes.

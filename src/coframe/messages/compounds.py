@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The messages that belong to a service or an action: requests, goals, and the parts of the action protocol."""
+"""The messages of a service or an action: requests, goals, and the parts of the action protocol."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _TIME = NamespacedType(("builtin_interfaces", "msg"), "Time")
 def member_messages(
     package: str, kind: str, name: str, parts: Sequence[MessageStructure]
 ) -> dict[str, MessageStructure]:
-    """Return the messages of one definition by name: one of a message, two of a service, eight of an action."""
+    """Return the messages of one definition by name: one for a message, two for a service, eight for an action."""
     if kind == "msg":
         return {name: parts[0]}
     if kind == "srv":

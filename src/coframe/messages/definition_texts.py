@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Definitions of message types as text; stored in a recording, they make it readable without ROS."""
+"""Definitions of message types as text, which make recordings readable without ROS."""
 
 from __future__ import annotations
 

@@ -51,7 +51,7 @@ def other_form(ros_type: str) -> type[Message] | None:
 
 
 def convert(message: Any, cls: type[Message]) -> Any:
-    """Return a message of the other form as one of a class of this distribution."""
+    """Convert a message of the other form to a class of this distribution."""
     result: Any = cls()
     for name in cls.get_fields_and_field_types():
         if hasattr(message, name):

@@ -135,7 +135,7 @@ _found: dict[str, InterfacePackage | None] = {}
 
 
 def find_package(name: str) -> InterfacePackage | None:
-    """Return the user's package with a name, or the one that coframe contains, or None if there is none."""
+    """Return the user's package with a name, otherwise coframe's, or None if neither exists."""
     if name not in _found:
         folder = sources.find_folder(name)
         _found[name] = find_shipped(name) if folder is None else load_package(name, folder)

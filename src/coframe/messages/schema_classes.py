@@ -215,7 +215,7 @@ def _is_same_type(recorded: AbstractType, known: AbstractType) -> bool:
 
 
 def _add_class(type_: AbstractType, made: dict[str, Any]) -> AbstractType:
-    """Return the type of a field, with the class of its messages if their name does not find it."""
+    """Return the type of a field, with its message class if the class cannot be found by name."""
     inner = _value_type(type_)
     cls = None if inner is None else made.get("/".join(inner.namespaced_name()))
     if inner is None or cls is None or not (cls.__recorded__ or "/".join(inner.namespaced_name()) != cls.ROS_TYPE):

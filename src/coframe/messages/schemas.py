@@ -85,7 +85,7 @@ class Schema:
 
 
 class _Block(NamedTuple):
-    """The lines of one file, and its title line, which the first file does not have."""
+    """The lines of one file, and its title line. The first file has no title line."""
 
     kind: str
     name: str
@@ -138,7 +138,7 @@ def parse_schema(text: bytes, name: str, format_: str) -> Schema:
 
 
 def _split(text: str) -> list[_Block]:
-    """Return the files in a text. The first has no title."""
+    """Split a definition into files. The first has no title."""
     blocks = [_Block("", "", 1, [])]
     for number, raw in enumerate(text.split("\n"), 1):
         line = raw.rstrip("\r")
@@ -211,7 +211,7 @@ def _split_name(name: str) -> tuple[str, str, str]:
 
 
 def _find_named(name: str, _package: str) -> NamespacedType:
-    """Return the type with a name in a text, which :meth:`Schema.find` looks up."""
+    """Return the type with a name for :meth:`Schema.find` to look up."""
     if name in _TIMES:
         return NamespacedType(("builtin_interfaces", "msg"), _TIMES[name])
     match = _TYPE.fullmatch(name)

@@ -91,14 +91,14 @@ class RobotStatePublisher(Node):
         return robot
 
     def _on_description(self, message: String) -> None:
-        """Use the description on the topic, for which the parameter `use_robot_description_topic` waits."""
+        """Use the description from the topic, as requested by the parameter `use_robot_description_topic`."""
         try:
             self._publish_robot(self._new_robot(message.data))
         except RobotDescriptionError as error:
             self.get_logger().error(one_line(f"Invalid robot_description on the topic, ignored: {error}"))
 
     def _publish_robot(self, robot: Robot) -> None:
-        """Publish the description of a robot and its fixed transforms, and from now on those of its joints."""
+        """Publish the description of a robot and its fixed transforms, then the transforms of its joints."""
         states = StatePublisher(robot, self._frequency, ignore_stamps=self._ignore_stamps)
         self._states = states
         for link in robot.links:

@@ -169,7 +169,7 @@ def _field_curve(
 
 
 def _topic_poses(recording: Recording, topic: str, expression: FieldExpression) -> Series | None:
-    """Return the quantity of the poses on a topic, such as ``/odom.yaw``; None if the expression is a field."""
+    """Return the quantity of the poses on a topic, such as ``/odom.yaw``, or None if the expression is a field."""
     *path, quantity = expression.path
     source = FieldSource(topic, expression.path)
     if quantity not in POSE_QUANTITIES or not recording.topics[topic].messages or not has_pose(recording, source):

@@ -199,7 +199,7 @@ def _send_function(writer: StaticBroadcaster) -> Callable[[bytes], None]:
 
 
 def _combined_qos(offered: list[QoS]) -> QoS:
-    """Return a QoS that satisfies every request that one of the offered QoS profiles satisfies."""
+    """Return a QoS that is compatible with every subscription that one of the offered profiles matches."""
     if not offered:
         return QoS(depth=_DEPTH)
     latched = any(qos.transient_local for qos in offered)

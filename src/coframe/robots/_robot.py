@@ -372,7 +372,7 @@ class Robot:
         return value.shape[: value.ndim - len(_axes(self.joints[name]))]
 
     def _position(self, joint: Joint, known: dict[str, Array]) -> Array:
-        """Return the position of a joint (given, by its mimic rule, or the default), and add it to `known`."""
+        """Return the position of a joint (given, mimicked or default), and add it to `known`."""
         followers: list[tuple[str, Mimic]] = []
         while joint.name not in known and joint.mimic is not None:
             followers.append((joint.name, joint.mimic))

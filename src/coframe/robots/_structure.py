@@ -90,7 +90,7 @@ def remove_faulty_mimics(joints: list[Joint], elements: Mapping[str, Element]) -
 
 
 def _fault(follower: Joint, by_name: Mapping[str, Joint]) -> str:
-    """Return why a joint cannot mimic another one, or "" if it can, or does not."""
+    """Return why a joint cannot mimic another one, or "" if there is no problem."""
     if follower.mimic is None:
         return ""
     leader = by_name.get(follower.mimic.joint)

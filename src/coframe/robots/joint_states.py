@@ -118,7 +118,7 @@ class JointStates:
         velocities: Sequence[float] = (),
         efforts: Sequence[float] = (),
     ) -> None:
-        """Set values of joints from another source, except those of unknown joints and of joints that follow others.
+        """Set values of joints from another source, except for unknown joints and mimic joints.
 
         Args:
             names: The joints.

@@ -143,7 +143,7 @@ class Link:
 
 @dataclass(frozen=True)
 class JointLimits:
-    """The limits of a joint; None for limits that are not given.
+    """The limits of a joint, or None for limits that are not given.
 
     Positions are in rad or m, efforts in Nm or N, and times in seconds. The soft limits belong to a safety controller,
     which stops the joint before the hard limits. The acceleration, deceleration and jerk are limits of URDF 1.2.

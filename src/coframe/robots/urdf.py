@@ -168,7 +168,7 @@ def _joint(name: str, element: Element, links: Mapping[str, str]) -> Joint:
 
 
 def _link_name(joint: Element, role: str, links: Mapping[str, str]) -> str:
-    """Return the link that a joint names; `links` has each name as it is and without spaces around it."""
+    """Return the link that a joint names. `links` contains each name with and without surrounding spaces."""
     element = joint.required_child(role)
     written = element.attributes.get("link") or element.text("link")
     return links.get(written) or links.get(written.strip(), written)

@@ -57,7 +57,7 @@ def _answer(request: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _reason(error: Exception, cause: Exception) -> str:
-    """Return the text of an exception, without the class and the second text of a cause that xacro adds."""
+    """Return the message of an exception, without the class and the repeated cause that xacro adds."""
     text = str(error)
     if cause is not error and text.startswith("<class "):
         text = " ".join(filter(None, (str(cause), getattr(error, "suffix", None))))

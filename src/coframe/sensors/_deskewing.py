@@ -171,7 +171,7 @@ def _mark_array(points: NDArray[Any], used: set[str]) -> NDArray[Any]:
 
 
 def _check_target_is_still(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64]) -> None:
-    """Raise ValueError if the target moves with the sensor: then deskewing would do nothing."""
+    """Raise ValueError if the target moves with the sensor, because deskewing would then have no effect."""
     known = stamps[stamps > 0]
     if not known.size:
         return

@@ -31,7 +31,7 @@ def float32_step(distance: float) -> float:
 
 
 def rounding_text(distance: float) -> str:
-    """Return what float32 does to coordinates that are this far from the origin, as the beginning of a sentence."""
+    """Return a clause about the rounding of float32 coordinates at this distance from the origin."""
     step = float32_step(distance) * _MILLIMETERS_PER_METER
     text = f"{step:.3g} mm" if step < _MILLIMETERS_PER_METER else f"{step / _MILLIMETERS_PER_METER:g} m"
     return f"float32 rounds coordinates of {distance:.0f} m to steps of {text}"

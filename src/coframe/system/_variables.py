@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The environment variables of ROS 2 and its middlewares, and what each does in coframe."""
+"""The environment variables of ROS 2 and its middlewares, and their effect in coframe."""
 
 from __future__ import annotations
 

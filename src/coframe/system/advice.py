@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Findings about a `SystemReport`: what prevents nodes from finding each other or slows them down, and what to do."""
+"""Findings about a `SystemReport`: problems that prevent discovery or slow nodes down, and their remedies."""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ class Interface:
         name: The name of the interface, such as ``eth0``.
         address: The IP address of the interface.
         used: Whether the participant uses it.
-        multicast: Whether the interface receives multicast datagrams that it sends; None if not tested.
+        multicast: Whether the interface receives multicast datagrams that it sends, or None if not tested.
         problem: Why the test failed; empty if it did not.
     """
 

@@ -284,7 +284,7 @@ class Relay:
                 self._warn_once(f"{error} {error.hint}", output.topic)
 
     def _is_relay(self, topic: str, writer: int) -> bool:
-        """Return whether a writer belongs to a relay, whose transforms must not be relayed again."""
+        """Return whether a writer is part of a relay, because its transforms must not be relayed again."""
         if writer not in self._relay_writers:
             description = self.participant.writers(topic).get(writer)
             if description is None:  # the writer has left, and the graph no longer contains it
@@ -300,7 +300,7 @@ class Relay:
         return self._relay_writers[writer]
 
     def _received(self) -> dict[str, list[tuple[TfPublisher, NotRelayed]]]:
-        """Return the publishers of each robot, with counts of what could not be relayed."""
+        """Return the publishers of each robot, with the number of transforms that could not be relayed."""
         received: dict[str, list[tuple[TfPublisher, NotRelayed]]] = {robot.name: [] for robot in self._robots}
         for input_ in self._inputs:
             for route in input_.routes:

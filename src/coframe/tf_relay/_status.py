@@ -48,7 +48,7 @@ class RelayedEdge(NamedTuple):
 
 
 class NotRelayed(NamedTuple):
-    """Counts of what was received but could not be relayed.
+    """The number of received transforms that could not be relayed, by reason.
 
     Attributes:
         malformed: The number of messages that are not valid TFMessages.

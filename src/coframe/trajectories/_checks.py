@@ -35,7 +35,7 @@ def looks_like_seconds(stamps: NDArray[np.int64]) -> bool:
 
 
 def likely_unit(stamps: NDArray[np.int64]) -> int:
-    """Return the unit of whole numbers in nanoseconds: the one in which they are dates, or else by their distance."""
+    """Return the unit of integer stamps in nanoseconds: the one that gives plausible dates, otherwise by spacing."""
     first = abs(int(stamps[0])) if len(stamps) else 0
     step = abs(int(np.median(np.diff(stamps)))) if len(stamps) > 1 else 0
     for unit in (SECOND, MILLISECOND, MICROSECOND):

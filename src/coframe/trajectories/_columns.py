@@ -117,7 +117,7 @@ def _unit_in(name: str) -> str:
 
 
 def _column_meaning(name: str) -> str:
-    """Return which value has this name, or "" for another one."""
+    """Return which value a column name refers to, or "" if it is unknown."""
     for meaning, pattern in (("nanoseconds", _NANOSECONDS), ("seconds", _WHOLE_SECONDS), ("stamp", _STAMP)):
         if pattern.fullmatch(name):
             return meaning

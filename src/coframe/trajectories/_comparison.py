@@ -250,7 +250,7 @@ class _Method(NamedTuple):
     origin: bool
 
     def alignment(self, reference: Transform, estimate: Transform) -> Alignment | None:
-        """Return the alignment of paired poses; None without one."""
+        """Return the alignment of paired poses, or None without one."""
         first = slice(None, self.pairs)
         used = reference[first], estimate[first]
         if self.align in {"se3", "sim3"}:
@@ -320,14 +320,14 @@ def _constant_differences(
 
 
 def _period(poses: Transform) -> int:
-    """Return the median time between two poses in nanoseconds; 0 without stamps."""
+    """Return the median time between two poses in nanoseconds, or 0 without stamps."""
     if poses.stamps is None or len(poses) < 2:
         return 0
     return int(np.median(np.abs(np.diff(poses.stamps))))
 
 
 def _project_poses(poses: Transform, axis: int) -> Transform:
-    """Return poses without the coordinate along an axis, and with the rotation about it only."""
+    """Return poses without the coordinate along an axis, and with only the rotation about it."""
     positions, angles = poses.translation.copy(), np.zeros((len(poses), 3))
     positions[:, axis] = 0.0
     angles[:, axis] = poses.rpy[:, axis]

@@ -71,10 +71,10 @@ def find_body_offset(reference: Transform, estimate: Transform, align: Align) ->
     Args:
         reference: The paired poses of the reference, (N,).
         estimate: The paired poses of the estimate, (N,).
-        align: Returns the alignment of an estimate with the reference; None without one.
+        align: Returns the alignment of an estimate with the reference, or None without one.
 
     Returns:
-        The offset; None if there is none, or if less than half of either error is explained by it.
+        The offset, or None if there is none, or if less than half of either error is explained by it.
     """
     if len(reference) < _MIN_PAIRS:
         return None
@@ -118,7 +118,7 @@ def find_time_shift(
             a lever arm and a shift would each hide a part of the other one.
 
     Returns:
-        The shift; None if none of at least a millisecond explains more than half of the error.
+        The shift, or None if none of at least a millisecond explains more than half of the error.
     """
     if reference.stamps is None or estimate.stamps is None or min(len(reference), len(estimate)) < _MIN_PAIRS:
         return None

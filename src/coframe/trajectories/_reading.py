@@ -265,7 +265,7 @@ class _Times:
 
 
 def _layout(file: Readable, kind: str | None, cells: int, has_commas: bool) -> str:
-    """Return the format of a file without names of columns; "" if it is in none, or not in the requested one."""
+    """Return the format of a file without names of columns, or "" if it is in none, or not in the requested one."""
     if has_commas and cells >= 8:
         is_tum = kind == "tum" or (kind is None and file.suffix.lower() == ".tum")
         found = "tum" if is_tum else kind if kind in {"csv", "euroc"} else "euroc"

@@ -51,7 +51,7 @@ class MotionOffset(NamedTuple):
     Attributes:
         offset: The offset in nanoseconds in the middle of the common time.
         deviation: Its standard deviation in nanoseconds.
-        drift: The change of the offset in seconds per second; 0 if it is not significant.
+        drift: The change of the offset in seconds per second, or 0 if it is not significant.
         middle: The middle of the common time, in nanoseconds on the clock of the first trajectory.
         correlation: The correlation of the two rates of rotation at this offset, up to 1.
     """
@@ -164,7 +164,7 @@ def motion_offset(
 
 
 def _rough_offset(one: _Rotations, other: _Rotations) -> tuple[float, float]:
-    """Return the offset with the highest correlation, in seconds to add to the times of the other, and that value."""
+    """Return the offset with the highest correlation, in seconds to add to the other, and the correlation."""
     cells = int(np.ceil((one.duration + other.duration) / _GRID_STEP)) + 2
     if cells > _MAX_CELLS:
         raise TrajectoryError("the trajectories are longer than 116 hours; cut them first")

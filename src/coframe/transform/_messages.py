@@ -125,7 +125,7 @@ def is_message(value: Any) -> bool:
 
 
 def unwrap_message(value: Any) -> Any:
-    """Return the message of a message of a recording, which contains it next to its topic."""
+    """Return the message itself if this is a message of a recording, which also has a topic."""
     inner = getattr(value, "message", None)
     return inner if hasattr(inner, "get_fields_and_field_types") and not hasattr(value, "header") else value
 

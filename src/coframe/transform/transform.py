@@ -336,7 +336,7 @@ class Transform(TransformConstructors):
         return self._text(".6g")
 
     def __format__(self, spec: str) -> str:
-        """Return the text of the transform with a format for its numbers: ``f"{transform:.2f}"``."""
+        """Return the transform as a string with a format for its numbers: ``f"{transform:.2f}"``."""
         return self._text(spec or ".6g")
 
     def _text(self, spec: str) -> str:

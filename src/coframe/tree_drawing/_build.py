@@ -18,7 +18,7 @@ __all__ = ["build_forest"]
 
 
 def build_forest(observation: Observation) -> Forest:
-    """Return the trees as they are in a buffer at the end of the observation."""
+    """Return the trees in a buffer at the end of the observation."""
     parents = {child: edge.parent for child, edge in observation.last.items()}
     # Children are drawn in alphabetical order.
     trees = FrameTrees.from_parents(parents, sorted(observation.frames))

@@ -32,7 +32,7 @@ class Change(NamedTuple):
 
 
 def changes(before: Forest, after: Forest) -> Iterator[Change]:
-    """Yield the frames that are new, changed or gone, in drawing order."""
+    """Yield the new, changed and removed frames, in drawing order."""
     for name, frame in after.frames.items():
         old = before.frames.get(name)
         if old is None:

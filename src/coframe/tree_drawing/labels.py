@@ -41,7 +41,7 @@ def position_problems(frame: Frame) -> list[str]:
 
 
 def stamp_offset_text(offset: ClockOffset) -> str:
-    """Return how far stamps are off the clock of the others."""
+    """Return the offset of stamps from the clock of the others as text."""
     return f"stamps {offset.size} {offset.direction} the clock"
 
 

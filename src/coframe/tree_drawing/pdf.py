@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A drawing as one page of PDF in the standard fonts; characters that they lack are written as escapes."""
+"""A drawing as one page of PDF in the standard fonts. Missing characters are written as escapes."""
 
 from __future__ import annotations
 

@@ -49,5 +49,5 @@ def _shape(shape: Box | Line | Label) -> str:
 
 
 def _text(text: str) -> str:
-    """Return an escaped text without the characters that XML does not allow."""
+    """Return escaped text without the characters that XML does not allow."""
     return escape("".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text), quote=False)

@@ -117,7 +117,7 @@ class BackendServiceWriter(BackendWriter, Protocol):
 
         Args:
             header: The header of the request.
-            writer: The handle of the writer of the request; 0 if it is not known.
+            writer: The handle of the writer of the request, or 0 if it is not known.
         """
 
 

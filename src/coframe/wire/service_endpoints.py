@@ -128,7 +128,7 @@ class ServicePublisher(RawPublisher):
         Args:
             header: The header of the request.
             cdr: The reply: 4 bytes of encapsulation, then CDR.
-            writer: The handle of the writer of the request; 0 if it is not known.
+            writer: The handle of the writer of the request, or 0 if it is not known.
 
         Raises:
             WireError: As for `Publisher.write`. A reply that cannot be sent later is reported with a warning.

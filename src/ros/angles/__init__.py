@@ -36,7 +36,7 @@ def shortest_angular_distance(from_angle: float, to_angle: float) -> float:
 
 
 def two_pi_complement(angle: float) -> float:
-    """Return the rotation in the other direction that leads to the same angle, from -2 pi to 2 pi."""
+    """Return the equivalent rotation in the other direction, from -2 pi to 2 pi."""
     if abs(angle) > _TURN:
         angle = fmod(angle, _TURN)
     return angle + _TURN if angle <= 0.0 else angle - _TURN

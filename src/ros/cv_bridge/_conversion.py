@@ -80,7 +80,7 @@ def _convert_color(image: Image, before: str, after: str, source: str, target: s
 
 
 def _from_nv24(cv2: Any, image: Image, after: str) -> Image:
-    """Convert NV24, which OpenCV does not know: it is the NV12 of an image whose pixels are doubled both ways."""
+    """Convert NV24, which OpenCV does not support: it is NV12 of an image with doubled rows and columns."""
     height = image.shape[0] // 3
     brightness = image[:height]
     if after == "GRAY":

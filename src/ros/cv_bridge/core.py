@@ -60,7 +60,7 @@ class CvBridge:
         return f"{self.numpy_type_to_cvtype[dtype.name]}C{n_channels}"
 
     def cvtype2_to_dtype_with_channels(self, cvtype: int) -> tuple[str, int]:
-        """Return NumPy's name of the values of a type of OpenCV, and the number of channels."""
+        """Return the NumPy type name and the number of channels of an OpenCV type."""
         return self.cvdepth_to_numpy_depth[CV_MAT_DEPTHWrap(cvtype)], CV_MAT_CNWrap(cvtype)
 
     def encoding_to_cvtype2(self, encoding: str) -> int:

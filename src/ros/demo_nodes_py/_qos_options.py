@@ -30,7 +30,7 @@ def run(name: str, make_node: Callable[[QoSProfile], Node], args: list[str] | No
     Args:
         name: Name of the program.
         make_node: Creates the node.
-        args: Command line without the name; None for that of the process.
+        args: Command line without the name, or None for that of the process.
     """
     program(name, args, lambda words, arguments: _run(name, make_node, words, arguments))
 

@@ -31,7 +31,7 @@ def _matrix(rows: int, columns: int, values: Any) -> Matrix:
 
 
 def _element(matrix: Matrix, row: int, column: int) -> float:
-    """Return an element as `numpy.float64`, with which a division by zero is not an error: P may be all zeros."""
+    """Return an element as `numpy.float64`, so that division by zero is not an error: P may be all zeros."""
     element: float = matrix[row, column]
     return element
 

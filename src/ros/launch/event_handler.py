@@ -37,12 +37,12 @@ class BaseEventHandler:
 
     @property
     def handler_description(self) -> str:
-        """What the handler does, as text."""
+        """A description of the handler's actions."""
         return "<actions>"
 
     @property
     def matcher_description(self) -> str:
-        """Which events match, as text."""
+        """A description of the matching events."""
         return "<matcher>"
 
     def matches(self, event: Event) -> bool:

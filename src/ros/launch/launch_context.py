@@ -159,7 +159,7 @@ class LaunchContext:
         self.emit_event_sync(event)
 
     def perform_substitution(self, sub: Substitution) -> str:
-        """Return the text of a substitution."""
+        """Perform a substitution and return its string."""
         return sub.perform(self)
 
 

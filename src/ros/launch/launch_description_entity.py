@@ -25,7 +25,7 @@ class LaunchDescriptionEntity:
         return []
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, Any]]:
-        """Return pairs of a condition as text and the entities that are visited only then."""
+        """Return pairs of a condition's description and the entities that are visited only if it holds."""
         return []
 
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:

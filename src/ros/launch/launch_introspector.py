@@ -31,7 +31,7 @@ def _lines(entity: LaunchDescriptionEntity) -> list[str]:
 
 
 def _tree(texts: list[list[str]]) -> list[str]:
-    """Return indented lines for several texts, whose first lines are the branches."""
+    """Return indented lines for several blocks of lines, whose first lines are the branches."""
     lines = []
     for number, (first, *rest) in enumerate(texts):
         is_last = number == len(texts) - 1

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Base class of substitutions: text that is computed while a launch description is visited."""
+"""Base class of substitutions: strings that are computed while a launch description is visited."""
 
 from __future__ import annotations
 
@@ -19,6 +19,6 @@ class Substitution:
         return self.__repr__()
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the text."""
+        """Return the string."""
         del context
         return ""

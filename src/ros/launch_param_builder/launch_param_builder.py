@@ -22,7 +22,7 @@ class ParameterBuilder:
         package_name: The package whose files are read.
 
     Raises:
-        PackageNotFoundError: There is no such package.
+        PackageNotFoundError: The package does not exist.
     """
 
     def __init__(self, package_name: str) -> None:
@@ -44,7 +44,7 @@ class ParameterBuilder:
         return self
 
     def file_parameter(self, parameter_name: str, file_path: str) -> ParameterBuilder:
-        """Add the text of a file.
+        """Add the contents of a file.
 
         Args:
             parameter_name: Name of the parameter.

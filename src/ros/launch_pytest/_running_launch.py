@@ -66,7 +66,7 @@ class RunningLaunch:
             raise RuntimeError(f"The launch of the fixture {self._options.name} has ended before ReadyToTest")
 
     def finish(self) -> None:
-        """Shut the launch down, or wait for its end, unless it has ended.
+        """Shut the launch down, or wait for its end. Do nothing if it has ended.
 
         Raises:
             RuntimeError: The launch has failed.

@@ -54,6 +54,6 @@ def fixture(decorated: Callable[..., Any] | None = None, *args: Any, **kwargs: A
 
 
 def launch_fixture_of(function: object) -> LaunchFixture | None:
-    """Return how a function or fixture was declared; None if it is not a launch fixture."""
+    """Return how a function or fixture was declared, or None if it is not a launch fixture."""
     found = getattr(function, _ATTRIBUTE, None)
     return found if isinstance(found, LaunchFixture) else None

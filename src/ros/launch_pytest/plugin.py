@@ -55,7 +55,7 @@ def pytest_fixture_setup(fixturedef: pytest.FixtureDef[Any], request: Any) -> Ge
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> list[pytest.Function] | None:
-    """Let tests with the mark use their launch fixture; split generators whose launch fixture outlives them."""
+    """Let marked tests use their launch fixture, and split generators that continue after the shutdown."""
     if not (collector.funcnamefilter(name) and inspect.isroutine(obj)):
         return None
     mark = _launch_mark(collector, obj)
@@ -102,7 +102,7 @@ def _is_generator(function: Any) -> bool:
 
 
 def _split_item(item: pytest.Function, options: LaunchFixture) -> list[pytest.Function]:
-    """Return the item, and another one for the part after the shutdown if the launch may have other tests."""
+    """Return the item, and a second item for the part after the shutdown if other tests may use the launch."""
     definitions = _definitions(item, options)
     if not definitions or definitions[-1].scope == "function":
         return [item]
@@ -128,7 +128,7 @@ def _runs_after_shutdown(item: pytest.Item) -> bool:
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Move tests after the shutdown behind the other tests that use the same launch."""
+    """Move the tests that run after the shutdown to the end of the tests of their launch."""
     last: dict[Any, int] = {}
     for index, item in enumerate(items):
         last[_launch_key(item)] = index
@@ -185,7 +185,7 @@ def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
 
 
 def _start_test(function: Any, arguments: dict[str, Any], launch: RunningLaunch) -> Callable[[], None] | None:
-    """Run a test, or its part before the shutdown; return a function that runs the part after it."""
+    """Run a test, or its part before the shutdown. Return a function that runs the other part."""
     if inspect.iscoroutinefunction(function):
         launch.run(function(**arguments))
         return None
@@ -214,7 +214,7 @@ async def _end_async_test(generator: Any) -> None:
 
 
 async def _run_in_thread(function: Callable[[], Any]) -> None:
-    """Run a function in a thread, so that the event loop continues, and raise what it raises."""
+    """Run a function in a thread, so that the event loop continues. Its exception is raised here."""
     done = asyncio.Event()
     loop = asyncio.get_running_loop()
     errors: list[BaseException] = []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node with which actions communicate with the nodes that they have started."""
+"""The node that actions use to communicate with the nodes that they have started."""
 
 from __future__ import annotations
 

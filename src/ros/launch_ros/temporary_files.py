@@ -28,7 +28,7 @@ def _folder() -> tempfile.TemporaryDirectory[str]:
 
 
 def write_temporary_file(text: str, suffix: str = ".yaml") -> Path:
-    """Write a text to a new file and return its path."""
+    """Write text to a new file and return its path."""
     path = Path(_folder().name) / f"{next(_numbers)}{suffix}"
     path.write_text(text, encoding="utf-8")
     return path

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Matchers of texts, of lines and of the output of processes."""
+"""Matchers for text, lines and the output of processes."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ _ANSI_ESCAPE = re.compile(r"\x1b(?:\[[0-?]*[ -/]*[@-~]|[@-Z\\-_])")
 
 
 def remove_ansi_escape_sequences(string: str) -> str:
-    """Return a text without colors and other control sequences of terminals."""
+    """Remove colors and other control sequences of terminals."""
     return _ANSI_ESCAPE.sub("", string)
 
 
 def build_text_match(expected_text: Any, *, strict: bool = False) -> Callable[[str], tuple[int, int] | None]:
-    """Return a function that finds the expected text in a text, as start and end or None.
+    """Return a function that finds the expected text in a string and returns its start and end, or None.
 
     Args:
         expected_text: A text, a compiled regular expression, a list of them that follow one another, or a function of

@@ -48,7 +48,7 @@ def add_plugin(module: str) -> None:
 
 
 def _values_of_callers() -> Iterator[object]:
-    """Yield the variables of the running functions, those of the innermost one first."""
+    """Yield the local variables of the running functions, the innermost function first."""
     frame: FrameType | None = sys._getframe(1)  # noqa: SLF001 - the standard library has no public name
     while frame is not None:
         yield from list(frame.f_locals.values())

@@ -156,7 +156,7 @@ class ActiveIoHandler(IoHandler):
         strip_ansi_escape_sequences: bool = True,
         stream: str = "stderr",
     ) -> None:
-        """Fail if a process does not write something in time; the arguments are those of `waitFor`.
+        """Fail if a process does not write the expected output in time. For the arguments, see `waitFor`.
 
         Raises:
             AssertionError: The output does not appear within the timeout.

@@ -135,7 +135,7 @@ def LoadTestsFromPythonModule(module: ModuleType, *, name: str = "launch_tests")
 
 
 def find_ready_action(description: Any) -> ReadyToTest | None:
-    """Return the ReadyToTest action of a launch description, at any depth; None if there is none."""
+    """Return the ReadyToTest action of a launch description, at any depth, or None if there is none."""
     pending = [description]
     while pending:
         entity = pending.pop(0)
@@ -150,7 +150,7 @@ def find_ready_action(description: Any) -> ReadyToTest | None:
 
 
 def _make_suites(module: ModuleType, values: Mapping[str, Any]) -> tuple[unittest.TestSuite, unittest.TestSuite]:
-    """Return the tests before and after the shutdown; their classes belong to one run."""
+    """Return the tests before and after the shutdown. Their classes are made for one run."""
     loader = unittest.TestLoader()
     suites = (unittest.TestSuite(), unittest.TestSuite())
     for test_class in _test_classes(module):
@@ -170,7 +170,7 @@ def _test_classes(module: ModuleType) -> Iterable[type[unittest.TestCase]]:
 
 
 def _own_attributes(test_class: type[unittest.TestCase], suffix: str) -> dict[str, Any]:
-    """Return the attributes of the class of one run: its tests have the names of the original, and the values."""
+    """Return the attributes of the class of one run: tests with their original names and the values."""
 
     def case_id(self: unittest.TestCase) -> str:
         return f"{test_class.__module__}.{test_class.__qualname__}.{self._testMethodName}{suffix}"
@@ -195,7 +195,7 @@ def _cases(suite: unittest.TestSuite) -> Iterator[unittest.TestCase]:
 
 
 def _bind_arguments(function: Any, arguments: Mapping[str, Any]) -> Any:
-    """Return the function with those of the arguments that it has."""
+    """Bind the arguments that the function accepts."""
     names = inspect.signature(function).parameters
     matching = {name: value for name, value in arguments.items() if name in names}
     return functools.wraps(function)(functools.partial(function, **matching)) if matching else function

@@ -90,7 +90,7 @@ class ActiveProcInfoHandler(ProcInfoHandler):
         Args:
             process: The action, or a part of the name of the process.
             cmd_args: Arguments that the command must contain, or `NO_CMD_ARGS`.
-            timeout: Seconds to wait; None for no limit.
+            timeout: Seconds to wait, or None for no limit.
 
         Raises:
             AssertionError: It has not started after the timeout.
@@ -106,7 +106,7 @@ class ActiveProcInfoHandler(ProcInfoHandler):
         Args:
             process: The action, or a part of the name of the process.
             cmd_args: Arguments that the command must contain, or `NO_CMD_ARGS`.
-            timeout: Seconds to wait; None for no limit.
+            timeout: Seconds to wait, or None for no limit.
 
         Raises:
             AssertionError: It has not ended after the timeout.

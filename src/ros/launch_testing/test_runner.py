@@ -31,7 +31,7 @@ _SEPARATOR = "#" * 30
 
 
 class LaunchTestRunner:
-    """Runs the tests of a file, one launch after the other.
+    """Runs the tests of a file, with one launch at a time.
 
     Args:
         test_runs: The runs.
@@ -70,7 +70,7 @@ class LaunchTestRunner:
 
 
 class _Worker:
-    """One launch: the launch service runs in this thread, and the tests that need the processes in another one."""
+    """One launch: the launch service runs in this thread, the tests in another one."""
 
     def __init__(self, test_run: TestRun, preamble: list[Action], arguments: list[str], debug: bool) -> None:
         self._test_run = test_run
@@ -154,7 +154,7 @@ class _Worker:
         self._result.append(_run_suite(self._test_run.post_shutdown_tests))
 
     def _failed_launch(self, message: str) -> FailResult:
-        """Return the failure of a launch that has ended too early, and print what its processes wrote."""
+        """Return the failure of a launch that has ended too early, and print the output of its processes."""
         print(f"\n{message}", file=sys.stderr)
         for event in self._proc_info:
             code = getattr(event, "returncode", None)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests of launched ROS systems: what `launch_testing` has, and helpers for topics."""
+"""Tests of launched ROS systems: `launch_testing` with helpers for topics."""
 
 from coframe.workspace import ros_side
 

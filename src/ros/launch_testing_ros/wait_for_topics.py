@@ -88,11 +88,11 @@ class WaitForTopics:
         self._node.destroy_node()
 
     def topics_received(self) -> set[str]:
-        """Return the topics of which messages have been received."""
+        """Return the topics on which messages have been received."""
         return {name for name, messages in self._received.items() if messages}
 
     def topics_not_received(self) -> set[str]:
-        """Return the topics of which no message has been received."""
+        """Return the topics on which no message has been received."""
         return {name for name, messages in self._received.items() if not messages}
 
     def received_messages(self, topic_name: str) -> list[Any]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A filter that consists of other filters, each of which gets the messages of the one before."""
+"""A filter that consists of other filters. Each filter receives the output of the previous one."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from message_filters._filters import SimpleFilter
 
 
 class Chain(SimpleFilter):
-    """A chain of filters. The callbacks get the messages of the last one.
+    """A chain of filters. The callbacks receive the output of the last one.
 
     Args:
         *filters: The filters. Each but the first has a method `connectInput`.

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class SimpleFilter:
-    """A filter, which calls its callbacks with each message that it lets through.
+    """A filter that calls its callbacks with each message that it passes.
 
     Attributes:
         callbacks: The callbacks and their additional arguments, by the number that `registerCallback` returned.

@@ -59,7 +59,7 @@ def _search(new: int, candidates: list[list[int]], slop: int) -> list[int] | Non
 
 
 def _possible_lows(new: int, candidates: list[list[int]], slop: int) -> list[int]:
-    """Return the stamps, sorted, from which an interval of length `slop` has the new stamp and one of each queue."""
+    """Return the sorted start stamps of intervals of length `slop` with the new stamp and one of each queue."""
     events = sorted((stamp, number) for number, stamps in enumerate(candidates) for stamp in stamps)
     lows = sorted({new, *(stamp for stamp, _ in events if new - slop < stamp <= new)}) if slop > 0 else []
     counts = [0] * len(candidates)

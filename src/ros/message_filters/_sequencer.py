@@ -19,7 +19,7 @@ _S_TO_NS = 1_000_000_000
 
 
 class TimeSequencer(SimpleFilter):
-    """A filter that lets messages through in the order of their stamps, each a fixed time after its stamp.
+    """A filter that passes messages in the order of their stamps, each a fixed time after its stamp.
 
     A message with an earlier stamp than that of a message that was already passed on is dropped.
 

@@ -53,7 +53,7 @@ class ArrivalClock:
         return self._clock.now()
 
     def clear_after_jump_back(self, queues: list[dict[int, Any]]) -> None:
-        """Drop all messages if the clock has jumped back since the last call: their stamps are in its future."""
+        """Drop all messages if the clock has jumped back since the last call: their stamps are in the future."""
         now = self._clock.now().nanoseconds
         if now < self._last:
             for queue in queues:

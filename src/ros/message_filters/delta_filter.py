@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Filters that let a message through if it differs enough from the last one that they let through."""
+"""Filters that pass a message if it differs enough from the last message that they passed."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class ComparisonFilter(SimpleFilter):
         self.incoming_connection = f.registerCallback(self.add)
 
     def add(self, msg: Any) -> None:
-        """Compare a message, and pass it on if it is let through."""
+        """Compare a message, and pass it if it differs enough."""
         if self._last is None or self.comparison(self._last, msg):
             self._last = msg
             self.signalMessage(msg)

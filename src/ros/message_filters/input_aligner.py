@@ -22,7 +22,7 @@ _S_TO_NS = 1_000_000_000
 
 
 class _Input:
-    """The messages of one filter that wait, its callbacks, and its period in nanoseconds, or 0 if it is unknown."""
+    """The queued messages of one filter, its callbacks, and its period in nanoseconds, or 0 if unknown."""
 
     def __init__(self) -> None:
         self.waiting: deque[tuple[int, Any]] = deque()

@@ -91,7 +91,7 @@ class MoveItConfigsBuilder(ParameterBuilder):
         package_name: The configuration package; ``ROBOT_moveit_config`` by default.
 
     Raises:
-        PackageNotFoundError: There is no such package.
+        PackageNotFoundError: The package does not exist.
     """
 
     def __init__(

@@ -54,7 +54,7 @@ _RESULTS = {
 
 
 class BasicNavigator(Node):
-    """Sends goals to Nav2, one after the other; names and defaults are Nav2's.
+    """Sends goals to Nav2. Names and defaults are the same as in Nav2.
 
     Args:
         node_name: Name of the node.

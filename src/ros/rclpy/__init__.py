@@ -342,7 +342,7 @@ def spin_until_future_complete(
 
 @contextmanager
 def _add_temporarily(node: Node, executor: Executor | None) -> Iterator[Executor]:
-    """Add a node to an executor for a while, and give it back to the executor that it belonged to."""
+    """Add a node to an executor temporarily, and return it to its previous executor."""
     executor = executor or get_global_executor()
     previous = node.executor
     is_new = executor.add_node(node)

@@ -167,7 +167,7 @@ class EntityHandle:
         return self
 
     def __exit__(self, *_: object) -> None:
-        """Leave the entity as it is."""
+        """Do nothing with the entity."""
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, EntityHandle) and other.pointer == self.pointer

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The options that a container gives to the nodes that it loads; the classes of the nodes need no argument for them."""
+"""Options for composable nodes. A container sets them in a context, so node classes need no argument for them."""
 
 from __future__ import annotations
 

@@ -131,7 +131,7 @@ class _Parser:
         return self._tokens[self._position].text if self._position < len(self._tokens) else ""
 
     def _takes(self, *texts: str) -> bool:
-        """Take the next token if it is a keyword or an operator with one of these texts."""
+        """Take the next token if it is one of these keywords or operators."""
         if self._position < len(self._tokens):
             token = self._tokens[self._position]
             if token.kind in ("keyword", "operator") and token.text in texts:
@@ -258,7 +258,7 @@ class _Parser:
 
 
 def _is_like(text: Any, pattern: Any) -> bool:
-    """Return whether a text matches a pattern, in which `%` and `*` are any text, `_` and `?` one character.
+    """Return whether a string matches a pattern: `%` and `*` match any string, `_` and `?` one character.
 
     Each part between two `%` takes the first place where it fits, so that no pattern makes the search go back.
     """

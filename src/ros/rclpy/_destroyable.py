@@ -46,7 +46,7 @@ class LoggingEntity(Destroyable):
 
 
 def destroyed_error(what: str) -> InvalidHandle:
-    """Return the error of using a destroyed entity, which has upstream's text and names the entity in its hint.
+    """Return the error for a destroyed entity, with rclpy's message and a hint that names the entity.
 
     Args:
         what: Description of the entity, with which a sentence starts.

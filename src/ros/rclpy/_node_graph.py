@@ -57,7 +57,7 @@ class NodeGraph:
         return names
 
     def get_action_client_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
-        """Return the actions for which a node has clients; an error if the node does not exist."""
+        """Return the actions for which a node has clients. Raise an error if the node does not exist."""
         query = _action_graph().get_action_client_names_and_types_by_node
         names: NamesAndTypes = query(self, node_name, node_namespace)
         return names
@@ -328,7 +328,7 @@ def _service_info(
 
 
 def _service_hash(request: EndpointInfo) -> str:
-    """Return the hash of a service: over DDS, an endpoint announces that of its requests only."""
+    """Return the hash of a service. Over DDS, an endpoint announces only the hash of its requests."""
     own = type_hash_of_name(request.ros_type)
     return type_hash_of_name(_service_type(request.ros_type)) if own == request.type_hash else request.type_hash
 

@@ -10,7 +10,7 @@ import numpy as np
 
 
 def to_python(value: Any) -> Any:
-    """Return a number or boolean of NumPy as one of Python, any other value itself.
+    """Convert a number or boolean of NumPy to Python. Return other values unchanged.
 
     NumPy's integers must not be multiplied by 1e9, because the product does not fit into their types.
     """

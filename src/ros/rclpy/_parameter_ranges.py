@@ -26,7 +26,7 @@ def is_empty(parameter: Parameter[Any]) -> bool:
 
 
 def with_type(parameter: Parameter[Any], kind: int) -> Parameter[Any]:
-    """Return an empty array as one of another array type, any other parameter itself."""
+    """Convert an empty array to another array type. Return other parameters unchanged."""
     if kind != parameter.type_ and is_array_type(kind) and is_empty(parameter):
         return Parameter(parameter.name, Parameter.Type(kind), [])
     return parameter

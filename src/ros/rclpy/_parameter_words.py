@@ -54,7 +54,7 @@ def _integer(text: str) -> int | None:
 
 
 def _double(text: str) -> float | None:
-    """Return a number as strtod reads it, or None if it is none, or is too large or too small for a double."""
+    """Parse a number like strtod. Return None if it is not a number or does not fit a double."""
     if found := _NOT_FINITE.fullmatch(text):
         return float(found[1] + found[2][:3])
     if _DECIMAL.fullmatch(text):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Parser of parameter values on the command line and of parameter files, which accepts what rcl's parser accepts."""
+"""Parser of parameter files and of parameter values on the command line, compatible with rcl's parser."""
 
 from __future__ import annotations
 

@@ -198,7 +198,7 @@ class Executor:
             return list(self._nodes)
 
     def wake(self) -> None:
-        """Wake the executor, so that it checks for work and its condition again."""
+        """Wake the executor to check again for work and its condition."""
         self._context._Coframe__wakeup.set()
 
     def spin(self) -> None:

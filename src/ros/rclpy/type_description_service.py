@@ -87,7 +87,7 @@ class TypeDescriptionService:
         return response
 
     def _interface(self, name: str, hash_: str) -> Any:
-        """Return the class with a type hash, by its name or among those of the node; None if it is unknown."""
+        """Return the class with a type hash, by its name or among those of the node, or None if it is unknown."""
         entities = self._node._Coframe__entities.all()
         used = [getattr(entity, "msg_type", None) or getattr(entity, "srv_type", None) for entity in entities]
         with suppress(LookupError):

@@ -33,7 +33,7 @@ def leftovers(folder: Path = FOLDER) -> tuple[int, int]:
 
 
 def line(folder: Path = FOLDER) -> str:
-    """Return what is said about such files; "" if there are none."""
+    """Return what is said about such files, or "" if there are none."""
     number, size = leftovers(folder)
     if number == 0:
         return ""

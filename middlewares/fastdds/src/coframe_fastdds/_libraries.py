@@ -17,7 +17,7 @@ _VERSION: Final = re.compile(r"\.so\.(\d[\d.]*)$")
 
 
 class Library(NamedTuple):
-    """A library: where it was looked for, its file, and its version; "" if the name of the file has none."""
+    """A library: where it was looked for, its file, and its version, or "" if the name of the file has none."""
 
     place: str
     path: Path

@@ -65,7 +65,7 @@ def keep_alive_command() -> list[str]:
 
 
 def python_environment(base: Mapping[str, str] | None = None) -> dict[str, str]:
-    """Return the environment for such a process.
+    """Return the environment for a child process of Python.
 
     An empty element of PYTHONPATH, as in ``PYTHONPATH=/opt/packages:``, means the current folder, and is removed.
     Relative elements become absolute, so that they refer to the same folders in every process.

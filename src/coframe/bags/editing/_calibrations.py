@@ -95,7 +95,7 @@ def _kalibr(path: Path, content: dict[str, Any], names: dict[str, str], survey: 
 
 
 def _frame_of(topic: str, survey: Survey) -> str:
-    """Return the frame that the messages on a topic name; "" if there are none."""
+    """Return the frame that the messages on a topic name, or "" if there are none."""
     if not topic.strip("/"):
         return ""
     for found, _, message in survey.messages(

@@ -58,7 +58,7 @@ class EditReport(NamedTuple):
     """The result of :func:`edit`.
 
     Attributes:
-        path: The new recording; None for a dry run.
+        path: The new recording, or None for a dry run.
         messages: Number of messages in it.
         rules: What each rule did, in their order.
         notes: What else is different from the input, or could not be edited, one message each.
@@ -186,7 +186,7 @@ def _count_changes(rule: Rule, survey: Survey) -> RuleCount:
 
 @contextmanager
 def _remove_if_incomplete(target: Path) -> Iterator[Path]:
-    """Yield a temporary path next to the target, which gets its name only when everything has been written."""
+    """Yield a temporary path next to the target. It is renamed to the target after everything has been written."""
     part = target.with_name(f".{target.name}.{uuid.uuid4().hex[:12]}.part")
     try:
         part.parent.mkdir(parents=True, exist_ok=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the rules that rename frames share: the function that renames those of one message."""
+"""Common part of the rules that rename frames: the function that renames the frames in one message."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _MAX_NAMES = 100_000  # frame names whose new names are kept
 
 
 def rename_frames(topic: EditedTopic, rule: Rule, needed: bytes = b"") -> Step | None:
-    """Return the function that gives the frames in a message their new names; None if the messages name no frames.
+    """Return the function that gives the frames in a message their new names, or None if the messages name no frames.
 
     Args:
         topic: The topic.

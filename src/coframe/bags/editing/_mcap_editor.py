@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Edit one MCAP file: read it once, write what does not change as it is, and a new index.
+"""Edit one MCAP file: read it once, copy unchanged parts as they are, and write a new index.
 
 Chunks without a message that changes are copied with their compression. All other records outside of chunks, such as
 attachments, are copied as well.
@@ -203,7 +203,7 @@ class McapEditor:
         ends: NDArray[np.uint64],
         kept: NDArray[np.bool_],
     ) -> list[tuple[int, int, bytes]]:
-        """Edit the messages in some rows; return what replaces them, and update their times and `kept`."""
+        """Edit the messages in some rows. Return their replacements, and update their times and `kept`."""
         patches: list[tuple[int, int, bytes]] = []
         unpack, size = mcap.MESSAGE_HEAD.unpack_from, mcap.MESSAGE_HEAD.size
         columns = (rows, channels[rows], records[rows], starts[rows], ends[rows])
@@ -237,7 +237,7 @@ class McapEditor:
                 raise DamagedError(f"messages of channel {number}, which is not defined")
 
     def _edit_definitions(self, data: bytes, places: list[tuple[int, int, int]]) -> list[tuple[int, int, bytes]]:
-        """Read the schemas and channels in records; return what replaces them."""
+        """Read the schemas and channels in records, and return their replacements."""
         patches = []
         for opcode, start, end in places:
             content = data[start:end]
@@ -397,7 +397,7 @@ def _attachment_facts(content: bytes) -> bytes:
 
 
 class _NullFile:
-    """Takes what a dry run writes."""
+    """Discards the output of a dry run."""
 
     def write(self, data: bytes) -> int:
         return len(data)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The records of MCAP files, as far as an editor has to know them; the format is described at https://mcap.dev/spec."""
+"""The records of MCAP files that an editor needs. The format is described at https://mcap.dev/spec."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ class Chunk(NamedTuple):
     Attributes:
         first: First log time.
         last: Last log time.
-        compression: As the file names it; "" for none.
+        compression: As the file names it, or "" for none.
         packed: Number of packed bytes.
         data: The records.
         has_crc: Whether the chunk has a checksum.
@@ -184,7 +184,7 @@ def has_data_crc(file: BinaryIO, size: int) -> bool:
 
 
 def read_summary(file: BinaryIO, size: int) -> Summary | None:
-    """Return the summary of a file with an index of its chunks; None if it has none.
+    """Return the summary of a file with an index of its chunks, or None if it has none.
 
     Raises:
         DamagedError: A definition in it is damaged.

@@ -96,7 +96,7 @@ class McapOutput:
         self._submit_job(lambda _: setattr(self, "_start", self._end))
 
     def end_indexed(self, opcode: int, *, before: bytes = b"", after: bytes = b"") -> None:
-        """Add the index record of what was written since :meth:`begin_indexed`: its offset and length, then `after`."""
+        """Add the index record of the record written since :meth:`begin_indexed`: offset, length, `after`."""
 
         def add(_: bytes) -> None:
             place = struct.pack("<QQ", self._start, self._end - self._start)

@@ -76,7 +76,7 @@ class McapSource(Source):
                 self._span = min(first, int(times.min())), max(last, int(times.max()))
 
     def _blocks(self, numbers: set[int] | None) -> Iterator[bytes]:
-        """Yield sequences of records that contain all messages of the channels with these numbers; None for all."""
+        """Yield sequences of records that contain all messages of the channels with these numbers, or None for all."""
         with open_regular(self._path) as file:
             if self._chunks is not None and numbers is not None:
                 for place in self._chunks:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A message on its way from one recording to another, and the topic that it is on."""
+"""A message that is copied from one recording to another, and its topic."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ class EditedMessage:
 
 
 class EditedTopic:
-    """The messages of one channel, as a rule finds them after the rules before it.
+    """The messages of one channel after all earlier rules were applied.
 
     Attributes:
         channel: The channel of the input.
@@ -95,10 +95,10 @@ class EditedTopic:
 
     @cached_property
     def frames(self) -> FrameFields | None:
-        """The frame names in the messages; None if they have none or are in an unknown type or encoding."""
+        """The frame names in the messages, or None if they have none or are in an unknown type or encoding."""
         return FrameFields.of(self.channel, self.types)
 
     @cached_property
     def stamps(self) -> StampFields | None:
-        """The stamps in the messages; None if they have none or are in an unknown type or encoding."""
+        """The stamps in the messages, or None if they have none or are in an unknown type or encoding."""
         return StampFields.of(self.channel, self.types)

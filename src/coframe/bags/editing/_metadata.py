@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The metadata of rosbag2 for an edited recording: everything that the edit does not concern stays."""
+"""The metadata of rosbag2 for an edited recording. Everything else is preserved."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class EditedFile:
         name: Its name.
         counts: Number of messages by topic.
         new_topics: Topics that the input does not have.
-        span: First and last receive time in nanoseconds; None if there are no messages.
+        span: First and last receive time in nanoseconds, or None if there are no messages.
     """
 
     name: str

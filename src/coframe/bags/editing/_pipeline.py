@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which rules concern the messages of a channel, and the one function that applies all of them."""
+"""The rules that apply to the messages of a channel, combined into one function."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ class InsertedMessage(NamedTuple):
 
 
 class Route:
-    """What happens to the messages of one channel.
+    """The edits to the messages of one channel.
 
     Attributes:
-        topic: The new name of the topic; None if it is dropped.
+        topic: The new name of the topic, or None if it is dropped.
         steps: The functions that edit each message.
     """
 
@@ -52,7 +52,7 @@ class Route:
             rule.changes += messages
 
     def edit(self, message: EditedMessage) -> bool:
-        """Edit a message in place; return False if it is dropped. A damaged message stays as it is."""
+        """Edit a message in place, and return False if it is dropped. A damaged message is not changed."""
         before = message.data
         try:
             return all(step(message) for step in self.steps)
@@ -92,7 +92,7 @@ class Pipeline:
         self.inserted = [one._replace(received=start) for one in self.inserted]
 
     def route(self, channel: Channel) -> Route:
-        """Return what happens to the messages of a channel."""
+        """Return the route of the messages of a channel."""
         if channel not in self._routes:
             self._routes[channel] = self._new_route(channel, channel.topic, 0)
         return self._routes[channel]
@@ -102,7 +102,7 @@ class Pipeline:
         return Route(topic, [], [], "", self._problems)
 
     def topic(self, name: str) -> str | None:
-        """Return the new name of a topic; None if it is dropped."""
+        """Return the new name of a topic, or None if it is dropped."""
         new: str | None = name
         for rule in self._rules:
             new = None if new is None else rule.topic(new)

@@ -95,7 +95,7 @@ class Recipe:
 
         Args:
             name: The name, such as "rename-frame".
-            value: The value, such as "Lidar=lidar"; "" for rules without one.
+            value: The value, such as "Lidar=lidar", or "" for rules without one.
 
         Raises:
             EditError: There is no such rule, or its value cannot be understood.

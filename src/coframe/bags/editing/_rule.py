@@ -32,7 +32,7 @@ class Insertion(NamedTuple):
 
 
 class Rule(ABC):
-    """One change to a recording, such as one new frame name.
+    """One change to a recording, such as renaming a frame.
 
     Rules are applied one after the other: each one finds the names that the rules before it have written.
 
@@ -54,7 +54,7 @@ class Rule(ABC):
         self.changes = 0
 
     def prepare(self, survey: Survey) -> None:
-        """Take what the rule needs to know before the first message; the survey has the names after earlier rules.
+        """Prepare the rule before the first message. The survey contains the names after earlier rules.
 
         Raises:
             EditError: The rule cannot be applied to this recording.
@@ -62,7 +62,7 @@ class Rule(ABC):
         del survey
 
     def topic(self, name: str) -> str | None:
-        """Return the new name of a topic; None if it is dropped."""
+        """Return the new name of a topic, or None if it is dropped."""
         return name
 
     def frame(self, name: str) -> str:
@@ -75,7 +75,7 @@ class Rule(ABC):
 
     @abstractmethod
     def step(self, topic: EditedTopic) -> Step | None:
-        """Return the function that edits each message on a topic; None if the rule leaves them as they are.
+        """Return the function that edits each message on a topic, or None if the rule does not change them.
 
         The function returns False to drop the message.
         """
@@ -85,11 +85,11 @@ class Rule(ABC):
         yield from ()
 
     def remarks(self) -> Iterator[str]:
-        """Yield what else the user should know after the last message."""
+        """Yield remarks for the user after the last message."""
         yield from ()
 
     def nearest(self, survey: Survey) -> str:
-        """Return a hint with names that exist, for a rule that matched nothing; the names are those of the input."""
+        """Return a hint with names from the input, for a rule that matched nothing."""
         del survey
         return ""
 

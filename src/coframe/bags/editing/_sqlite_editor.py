@@ -96,7 +96,7 @@ class SqliteSource(Source):
         raise DamagedError(problem)
 
     def rows(self, table: str) -> Iterator[dict[str, Any]]:
-        """Yield the rows of a table by column; none if there is no such table."""
+        """Yield the rows of a table by column, or nothing if the table does not exist."""
         columns = self.columns.get(table)
         if columns:
             for row in self.database.rows(table, ", ".join(columns)):
@@ -200,7 +200,7 @@ class SqliteEditor:
             self._out.execute(f"INSERT INTO {table}({', '.join(row)}) VALUES ({marks})", tuple(row.values()))  # noqa: S608 - the names are those above
 
     def _insert(self) -> int:
-        """Write the messages to add; return by how much the numbers of the other rows grow."""
+        """Write the messages to add, and return the offset to add to the numbers of the other rows."""
         first = self._source.database.first_row("messages")
         for row, (topic, data, received) in enumerate(self._inserted, start=1):
             self._add(row, self._number_of(topic), received, data)

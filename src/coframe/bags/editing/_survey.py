@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What rules need to know about a recording before its first message: its topics, times and static transforms."""
+"""A survey of a recording for the rules: its topics, times and static transforms."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Source:
         raise NotImplementedError
 
     def span(self) -> tuple[int, int] | None:
-        """Return the first and last receive time in nanoseconds; None if there are no messages."""
+        """Return the first and last receive time in nanoseconds, or None if there are no messages."""
         raise NotImplementedError
 
     def messages(self, wanted: Callable[[Channel], bool]) -> Iterator[tuple[Channel, int, bytes]]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Take TFMessages apart and put them together again, so that everything that is not edited keeps its bytes."""
+"""Split TFMessages into transforms and join them again. The bytes of unedited parts are preserved."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tables of fields of messages and poses of frames at the stamps of a topic or at a rate."""
+"""Tables of message fields and frame poses at the stamps of a topic or at a fixed rate."""
 
 from coframe.bags.tables.columns import METHODS, Column, ColumnLike, Method
 from coframe.bags.tables.files import TABLE_FORMATS, table_format, write_table

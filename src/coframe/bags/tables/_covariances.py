@@ -62,7 +62,7 @@ def _edges_between(recording: Recording, poses: Iterable[PoseSource]) -> set[str
 
 
 def _edge_of(recording: Recording, topic: str) -> tuple[str, str] | None:
-    """Return the parent and the child of the first Odometry message; None if it cannot be read."""
+    """Return the parent and the child of the first Odometry message, or None if it cannot be read."""
     for found in recording.messages(topic):
         try:
             message = found.message

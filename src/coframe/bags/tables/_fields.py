@@ -62,7 +62,7 @@ class FieldReader:
         return any(not isinstance(step, str) or isinstance(step, Key) for step in self._base)
 
     def read(self, message: Any) -> tuple[Any, ...] | None:
-        """Return the values in a message, None for those that do not exist; None if none of them exists."""
+        """Return the values in a message, None for those that do not exist, or None if none of them exists."""
         try:
             return self._read(at_path(message, self._base))
         except MissingElementError:

@@ -79,7 +79,7 @@ class Leaf:
         dtype: The type of the numbers; object for other kinds.
         size: The number of elements of an ``array``.
         type_: The type of a ``list`` in the definition of the message.
-        axis: Which number of a quaternion it is: ``x``, ``y``, ``z`` or ``w``; "" for all other values.
+        axis: Which number of a quaternion it is: ``x``, ``y``, ``z`` or ``w``, or "" for all other values.
     """
 
     steps: Path
@@ -170,7 +170,7 @@ def name_lists(type_: Any, path: Path = ()) -> Iterator[Path]:
 
 
 def names_beside(fields: Mapping[str, Any]) -> str:
-    """Return the field that names the elements of the sequences next to it; "" if there is none."""
+    """Return the field that names the elements of the sequences next to it, or "" if there is none."""
     for name in _NAME_FIELDS:
         type_ = fields.get(name)
         if isinstance(type_, AbstractNestedType) and isinstance(type_.value_type, AbstractGenericString):
@@ -200,7 +200,7 @@ def _sequence(type_: AbstractNestedType, steps: Path) -> Leaf:
 
 
 def value_leaves(value: Any, steps: Path = ()) -> Found:
-    """Yield the values in a message of JSON or protobuf; the values of one message determine those of all."""
+    """Yield the values in a message of JSON or protobuf. The first message determines the columns."""
     names = value_fields(value)
     if set(names) in _TIME_FIELDS:
         yield Leaf(_in_nanoseconds(steps), "time", np.dtype("int64")), Getter(steps)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find the messages from which the value at each time comes, by their stamps."""
+"""Find the messages that provide the value at each time, by their stamps."""
 
 from __future__ import annotations
 

@@ -44,10 +44,10 @@ class SampledColumn(Protocol):
 
     @property
     def span(self) -> tuple[int, int] | None:
-        """The first and the last time with a value, in nanoseconds; None if it has one at any time."""
+        """The first and the last time with a value, in nanoseconds, or None if it has one at any time."""
 
     def note(self) -> str:
-        """Return a sentence about values that are less certain than usual; "" if there are none."""
+        """Return a sentence about values that are less certain than usual, or "" if there are none."""
 
 
 class TopicReader:
@@ -96,7 +96,7 @@ class TopicReader:
         raise RecordingError(f"{self.topic}: no message can be decoded", hint="The bytes are damaged.")
 
     def iterate_messages(self, indices: Iterable[int]) -> Iterable[tuple[int, Any]]:
-        """Yield some messages with their index in `samples`, in the order of the file; None if damaged."""
+        """Yield some messages with their index in `samples`, in the order of the file, or None if damaged."""
         by_row = sorted((int(self._order[index]), index) for index in indices)
         return ((index, self._message(index)) for _, index in by_row)
 
@@ -157,7 +157,7 @@ class FieldColumn:
         return int(samples[0]), int(samples[-1])
 
     def picks(self, times: NDArray[np.int64], rows: NDArray[np.intp] | None) -> MatchedRows:
-        """Return the messages for some times, as indices into those of the topic.
+        """Return the messages for some times, as indices into the messages of the topic.
 
         Args:
             times: (N,) nanoseconds.
@@ -207,7 +207,7 @@ class FieldColumn:
         return tuple(by_steps.get(leaf.steps) for leaf in self.leaves)
 
     def note(self) -> str:
-        """Return a sentence about values in unusually long gaps between messages; "" if there are none."""
+        """Return a sentence about values in unusually long gaps between messages, or "" if there are none."""
         if not self._unusual:
             return ""
         how = "are interpolated over gaps of up to" if self._method == "interpolate" else "come from messages up to"
@@ -296,7 +296,7 @@ class PoseColumn:
         return TableColumn(self.label, self._values(rows, covariances, valid), valid, gap=gaps)
 
     def note(self) -> str:
-        """Return a sentence about poses in unusually long gaps, and about covariances; "" if there is nothing."""
+        """Return a sentence about poses in unusually long gaps, and about covariances, or "" if there is nothing."""
         times = np.concatenate(self._times) if self._times else np.empty(0, np.int64)
         text = "" if self._max_gap is not None else long_gap_text(self._buffer, self._target, self._source, times)
         if self._covariance and not self._has_covariance:

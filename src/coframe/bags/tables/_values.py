@@ -109,7 +109,7 @@ def _interpolate(first: NDArray[Any], second: NDArray[Any], share: NDArray[np.fl
 
 
 def _mix_sequences(one: Any, other: Any, share: float) -> Any:
-    """Return a sequence between two of the same length; None if their lengths differ."""
+    """Return a sequence between two of the same length, or None if their lengths differ."""
     if one is None or other is None or len(one) != len(other):
         return None
     return _mix_arrays(one.astype(np.float64), other.astype(np.float64), np.full(len(one), share))
@@ -130,7 +130,7 @@ def _interpolate_rotations(
     found: list[NDArray[Any]],
     known: list[NDArray[np.bool_]],
 ) -> None:
-    """Replace the numbers of a quaternion by those of the rotation between two messages."""
+    """Replace the components of a quaternion by those of the rotation between two messages."""
     place = {leaf.axis: start + number for number, leaf in enumerate(leaves[start : start + 4])}
     order = [place[axis] for axis in "xyzw"]
     one, other = (
@@ -152,7 +152,7 @@ def _interpolate_rotations(
 
 
 def _convert_value(value: Any, leaf: Leaf) -> Any:
-    """Return a value of a message as one that NumPy stores; None if its type differs from other messages."""
+    """Convert a value of a message for NumPy. Return None if its type differs from other messages."""
     try:
         return _CONVERSIONS[leaf.kind](value, leaf)
     except (TypeError, ValueError, OverflowError, LookupError):

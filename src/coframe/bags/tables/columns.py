@@ -163,7 +163,7 @@ ColumnLike: TypeAlias = "str | tuple[str, str] | Transform | Column"
 
 
 def column(given: ColumnLike) -> Column:
-    """Return a column from text, a pair of frames, or a column.
+    """Return a column for a string, a pair of frames, or a column.
 
     Args:
         given: Text may have a name before it and a method with a tolerance after it:

@@ -43,7 +43,7 @@ MAX_BATCH_BYTES = 64 << 20  # of the messages of one batch
 
 @dataclass(frozen=True)
 class TableQuery:
-    """Describes a table of fields of messages and poses of frames; see :meth:`Recording.table`. It can be pickled.
+    """Description of a table of message fields and frame poses for :meth:`Recording.table`. It can be pickled.
 
     Attributes:
         columns: The columns, or one.
@@ -175,7 +175,7 @@ class _Evaluation:
     # The rows.
 
     def _at_topic(self, columns: list[Column]) -> str | None:
-        """Return the topic at whose stamps the rows are; None for a rate."""
+        """Return the topic at whose stamps the rows are, or None for a rate."""
         if self._query.at is not None:
             return self._topic(self._query.at).topic
         if self._query.rate is not None:
@@ -317,7 +317,7 @@ class _Evaluation:
 def _read_together(
     messages: TopicReader, columns: list[FieldColumn], times: NDArray[np.int64], rows: NDArray[np.intp] | None
 ) -> dict[str, TableColumn]:
-    """Return columns of one topic, whose messages are decoded once for all of them."""
+    """Return all columns of one topic. Each message is decoded once."""
     picks = [each.picks(times, rows) for each in columns]
     wanted = [np.unique(np.concatenate([each.first, each.second])) for each in picks]
     values: list[list[Any]] = [[None] * len(indices) for indices in wanted]

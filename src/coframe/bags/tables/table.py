@@ -57,8 +57,8 @@ class TableColumn:
         name: The name of the column.
         values: Its values: one, or one for each field of a message.
         valid: Whether a row has a value within the limits, (N,).
-        age: The time of the row minus the stamp of its message in nanoseconds, (N,); None for interpolated values.
-        gap: The interval that was interpolated over in nanoseconds, (N,); None for values that are not interpolated.
+        age: The time of the row minus the stamp of its message in nanoseconds, (N,), or None for interpolated values.
+        gap: The interval that was interpolated over in nanoseconds, (N,), or None for values that are not interpolated.
     """
 
     name: str
@@ -222,7 +222,7 @@ class Table:
         write_table(self, path)
 
     def expanded(self) -> Iterator[tuple[str, Leaf, NDArray[Any], NDArray[np.bool_]]]:
-        """Yield name, description, array and known rows of each value; short arrays as one value for each element."""
+        """Yield the name, description, array and known rows of each value. Short arrays are split into elements."""
         for name, value in self._arrays.items():
             if value.array.ndim == 2 and value.leaf.size <= MAX_EXPANDED:
                 for index in range(value.leaf.size):

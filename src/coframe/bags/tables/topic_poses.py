@@ -48,7 +48,7 @@ def has_pose(recording: Recording, source: FieldSource) -> bool:
 
 
 def topic_poses(recording: Recording, source: FieldSource, report: Callable[[str], object]) -> Transform:
-    """Return the poses in the messages on a topic, sorted by stamp; those of the last message if it has a list of them.
+    """Return the poses in the messages on a topic, sorted by stamp. For lists of poses, use the last message.
 
     Args:
         recording: The recording.
@@ -140,7 +140,7 @@ def _batch(
 
 
 def _symmetric(covariances: NDArray[np.float64]) -> NDArray[np.float64] | None:
-    """Return covariances (N, 36) as matrices (N, 6, 6); None if they are not covariances, as drivers publish them."""
+    """Return covariances (N, 36) as matrices (N, 6, 6), or None if they are invalid, as some drivers publish."""
     matrices = covariances.reshape(-1, 6, 6)
     if not np.allclose(matrices, matrices.transpose(0, 2, 1)) or (np.linalg.eigvalsh(matrices) < -1e-9).any():
         return None
@@ -188,7 +188,7 @@ def _poses_of_list(
 
 
 def _list_of_poses(cls: Any) -> str:
-    """Return the field of a message that is a list of poses; "" if there is none."""
+    """Return the field of a message that is a list of poses, or "" if there is none."""
     fields = class_fields(cls)
     for name in _LIST_FIELDS:
         type_ = fields.get(name)

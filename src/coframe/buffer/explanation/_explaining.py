@@ -182,7 +182,7 @@ def _span(edges: tuple[ChainEdge, ...]) -> tuple[int, int] | None:
 
 
 def _find_missing_edge(buffer: Buffer, roots: tuple[str, str]) -> MissingEdge | None:
-    """Return the edge that the frame names suggest, or else the one between the roots."""
+    """Return the edge that the frame names suggest, otherwise the edge between the roots."""
     trees = FrameTrees.from_parents({frame.name: frame.parent for frame in buffer.frames()})
     if not all(root in trees.index for root in roots):
         return None

@@ -26,7 +26,7 @@ class ChainEdge(NamedTuple):
         by: The distance from the newest sample to the requested time, or, negative, from the oldest sample, or 0 if ok.
         oldest: Stamp of the oldest sample, or 0 when static.
         newest: Stamp of the newest sample, or 0 when static.
-        age: The time from the newest sample to the requested time, or to the current time; None if unknown.
+        age: The time from the newest sample to the requested time, or to the current time, or None if unknown.
         gap: The interval between the two samples around the requested time; 0 at a sample.
         rate: Samples per second, from the mean interval between their stamps.
         period: The usual period: the median interval between the stamps; 0.0 with fewer than two samples.

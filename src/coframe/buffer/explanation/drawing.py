@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An explanation as lines of text: the verdict, the chain with one line per frame, and what to do."""
+"""An explanation as lines of text: the verdict, the chain with one line per frame, and advice."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def _advice(found: Explanation) -> Iterator[str]:
 
 
 def verdict_text(found: Explanation) -> str:
-    """Return a sentence that says whether there is a transform and, if not, which edge is the reason."""
+    """Return a sentence that states whether the transform exists and, if not, which edge prevents it."""
     frames = f"from {display_name(found.source)} to {display_name(found.target)}"
     if found.answered is None:
         when = f" at {seconds(found.stamp)}" if found.stamp else ""

@@ -63,7 +63,7 @@ def write_package(package: NewPackage, destination: Path) -> list[Path]:
 
 
 def _files(package: NewPackage) -> dict[str, str]:
-    """Return the texts of the files by name. A name that ends with a slash is an empty folder."""
+    """Return the contents of the files by name. A name that ends with a slash is an empty folder."""
     name = package.name
     if package.build_type == "ament_cmake":
         return {

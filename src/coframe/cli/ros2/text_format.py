@@ -40,7 +40,7 @@ class TextFormat(NamedTuple):
 
 
 def text_options(function: Callable[..., None]) -> Callable[..., None]:
-    """Declare the options about the text of messages, which the function receives as ``text_format``."""
+    """Declare the options that format messages. The function receives them as ``text_format``."""
 
     @functools.wraps(function)
     def command(

@@ -140,7 +140,7 @@ class _Message(NamedTuple):
 
     @classmethod
     def read(cls, kind: Any, text: str) -> _Message:
-        """Return the message with the values of a YAML text."""
+        """Return a message with the values of a YAML document."""
         message = kind()
         return cls(message, read_values(message, text))
 

@@ -243,7 +243,7 @@ def _rate_lines(arrivals: list[float]) -> list[str]:
 
 
 def _rates(arrivals: list[float]) -> list[str]:
-    """Return the cells of a topic in the table of rates; none if there are too few messages."""
+    """Return the cells of a topic in the table of rates, or no cells if there are too few messages."""
     periods = _periods(arrivals)
     if not periods:
         return []
@@ -260,7 +260,7 @@ def _statistics_line(values: list[float], size: int) -> str:
 
 
 def _bandwidths(samples: list[tuple[float, int]], now: float) -> list[str]:
-    """Return the cells of a topic in the table of bandwidths; none if there are too few messages.
+    """Return the cells of a topic in the table of bandwidths, or no cells if there are too few messages.
 
     The rate is computed since the oldest message in the window, and all sizes have the unit of their mean.
     """

@@ -36,7 +36,7 @@ _REASONS = {
 
 
 def yaml_value(text: str, what: str, hint: str = "") -> Any:
-    """Return the value of a YAML text, or end the command if it is not valid YAML.
+    """Return the value of a YAML document, or end the command if it is not valid YAML.
 
     Args:
         text: The YAML text, as given on the command line.

@@ -14,7 +14,7 @@ __all__ = ["as_annotations"]
 
 
 def as_annotations(verdicts: Iterable[Verdict]) -> Iterator[str]:
-    """Yield a line for each problem, and for each thing that was not checked."""
+    """Yield a line for each problem and each requirement that was not checked."""
     for verdict in verdicts:
         file = "" if verdict.source == "live" else f"file={_property(verdict.source)},"
         if verdict.unreadable:

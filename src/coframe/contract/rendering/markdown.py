@@ -51,6 +51,6 @@ def _result_word(verdict: Verdict) -> str:
 
 
 def _cell(text: str) -> str:
-    """Return a text that neither ends the cell nor becomes markup or HTML."""
+    """Return text that neither ends the cell nor becomes markup or HTML."""
     text = one_line(text).replace("&", "&amp;").replace("<", "&lt;")
     return "".join(f"\\{letter}" if letter in "\\`*_[]|#~" else letter for letter in text)

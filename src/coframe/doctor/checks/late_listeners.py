@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TF025: listeners that are too slow: lookups that keep failing, and messages received in bursts."""
+"""TF025: slow listeners, with lookups that keep failing or messages received in bursts."""
 
 from __future__ import annotations
 

@@ -61,7 +61,7 @@ def _find_by_transport_time(observation: Observation) -> Iterator[Finding]:
 
 
 def _find_by_stamps(observation: Observation) -> Iterator[Finding]:
-    """Yield a finding if two edges or more share an offset that the others do not have."""
+    """Yield a finding if two or more edges share an offset that the others do not have."""
     offsets: list[tuple[float, Edge]] = []
     for edge in observation.dynamic:
         lags = observation.lags(edge.stamp, edge.arrived)

@@ -68,7 +68,7 @@ def find(observation: Observation) -> Iterator[Finding]:
 
 
 def _nodes(sensor: Sensor, nodes: tuple[str, ...]) -> NDArray[np.int64]:
-    """Return the number of the node of each message. Messages of unknown nodes have that of the message before."""
+    """Return the number of the node of each message. For an unknown node, repeat the previous number."""
     numbers = np.array([nodes.index(node) for node in sensor.publishers], dtype=np.int64)
     known = np.maximum.accumulate(np.where(sensor.source < 0, 0, np.arange(len(sensor.source))))
     return numbers[np.maximum(sensor.source[known], 0)]

@@ -253,7 +253,7 @@ def _wrong_position(
 
 
 def _deviation(edge: Edge, rows: NDArray[np.intp], expected: Transform, *, explained: bool = True) -> _Difference:
-    """Return the median difference between rows of an edge and the expected pose or poses, and what explains it."""
+    """Return the median difference between rows of an edge and the expected poses, and its explanation."""
     published = edge.poses(rows)
     right = np.empty_like(published)
     right[:, :3], right[:, 3:] = expected.translation, expected.quaternion

@@ -104,7 +104,7 @@ def _find_other_units(edge: Edge, mounts: list[Edge]) -> Iterator[Finding]:
 
 
 def _likely_units(edge: Edge, mounts: list[Edge]) -> list[tuple[str, float]]:
-    """Return the units in which the distance is like those of the robot's other mounts, or possible; at least one."""
+    """Return the units in which the distance is similar to the robot's other mounts, or at least possible."""
     possible = [unit for unit in _UNITS if _MIN_MOUNT_DISTANCE < edge.length / unit[1] < _MAX_DISTANCE] or list(
         _UNITS[:1]
     )

@@ -74,7 +74,7 @@ def _is_inside(source: Path, package: Path) -> bool:
 
 
 def contents(folder: Path) -> list[Path]:
-    """Return what a folder contains, sorted; nothing if it is not a folder or cannot be read."""
+    """Return what a folder contains, sorted, or nothing if it is not a folder or cannot be read."""
     try:
         return sorted(folder.iterdir())
     except (OSError, ValueError):

@@ -23,7 +23,7 @@ __all__ = ["AppendEnvironmentVariable"]
 
 @expose_action("append_env")
 class AppendEnvironmentVariable(NamedValueAction):
-    """Append to an environment variable, or set it if it does not exist.
+    """Append to an environment variable. Set it if it does not exist.
 
     Args:
         name: Name of the variable.
@@ -59,12 +59,12 @@ class AppendEnvironmentVariable(NamedValueAction):
 
     @property
     def prepend(self) -> list[Substitution]:
-        """Whether the text is put in front."""
+        """Whether the new value is prepended."""
         return self.__prepend
 
     @property
     def separator(self) -> list[Substitution]:
-        """The text between the old and the new value."""
+        """The separator between the old and the new value."""
         return self.__separator
 
     def execute(self, context: LaunchContext) -> list[Any] | None:

@@ -151,7 +151,7 @@ class ExecuteLocal(Action):
 
     @property
     def name(self) -> Any:
-        """The name of the process with its number. Before it was started, the given name."""
+        """The name of the process with its number, or the given name before it has started."""
         return self.__process_description.final_name or self.__process_description.name
 
     @property

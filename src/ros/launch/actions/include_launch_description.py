@@ -87,7 +87,7 @@ class IncludeLaunchDescription(Action):
         return [] if found is None else [found]
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Return the launch description, if its file is known; report why it cannot be read at the execution."""
+        """Return the launch description if its file is known. Errors are reported when the action is executed."""
         try:
             return super().describe_sub_entities()
         except Exception as error:  # noqa: BLE001 - a file that cannot be described may still never be included

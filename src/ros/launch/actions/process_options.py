@@ -25,7 +25,7 @@ def timeout(seconds: SomeSubstitutionsType | float | None, name: str) -> list[Su
 
 
 def performed_text(context: LaunchContext, value: Any) -> str:
-    """Return the text of an option."""
+    """Return an option as a string."""
     return perform_substitutions(context, normalize_to_list_of_substitutions(value))
 
 

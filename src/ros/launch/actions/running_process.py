@@ -22,7 +22,7 @@ _STREAMS = {1: "stdout", 2: "stderr"}
 
 
 class RunningProcess(asyncio.SubprocessProtocol):
-    """A child process. On POSIX it leads a process group, to which also its own children belong.
+    """A child process. On POSIX it leads a process group, which also contains its own children.
 
     Ctrl-C in the terminal therefore reaches only the launcher, which then sends SIGINT to all groups.
     """
@@ -42,7 +42,7 @@ class RunningProcess(asyncio.SubprocessProtocol):
     async def start(
         cls, command: list[str] | str, *, cwd: str | None, env: dict[str, str], emulate_tty: bool
     ) -> RunningProcess:
-        """Start a command. A text is run by the shell.
+        """Start a command. A string is run by the shell.
 
         Args:
             command: The words, or the text.
@@ -88,7 +88,7 @@ class RunningProcess(asyncio.SubprocessProtocol):
         self._terminals.append(transport)
 
     def pipe_data_received(self, fd: int, data: bytes) -> None:
-        """Pass output on; unbuffered programs write a line and its end separately, which are put together."""
+        """Forward output. If an unbuffered program writes a line and its end separately, join them."""
         self._pending[fd] = self._pending.get(fd, b"") + data
         if data.endswith(b"\n"):
             self._pass_on(fd)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The truth value of a condition that is written as text."""
+"""The truth value of a condition given as a string."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class InvalidConditionExpressionError(RuntimeError):
 
 
 def evaluate_condition_expression(context: LaunchContext, expression: Iterable[Substitution]) -> bool:
-    """Return the truth value of a text: ``true`` or ``1``, ``false`` or ``0``, in upper or lower case.
+    """Return the truth value of a string: ``true`` or ``1``, ``false`` or ``0``, in upper or lower case.
 
     Raises:
         InvalidConditionExpressionError: It is something else.

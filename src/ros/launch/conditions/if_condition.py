@@ -17,7 +17,7 @@ __all__ = ["IfCondition", "UnlessCondition"]
 
 
 class IfCondition(Condition):
-    """Holds if the text of the substitutions is true."""
+    """Condition that holds if the substitutions evaluate to true."""
 
     def __init__(self, predicate_expression: SomeSubstitutionsType) -> None:
         self._expression = normalize_to_list_of_substitutions(predicate_expression)
@@ -32,7 +32,7 @@ class IfCondition(Condition):
 
 
 class UnlessCondition(IfCondition):
-    """Holds if the text of the substitutions is false."""
+    """Condition that holds if the substitutions evaluate to false."""
 
     def _evaluate(self, context: LaunchContext) -> bool:
         return not super()._evaluate(context)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Descriptions of what actions start."""
+"""Descriptions of processes that actions start."""
 
 from launch.descriptions.executable import Executable
 

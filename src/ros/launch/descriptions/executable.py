@@ -27,7 +27,7 @@ _numbers: Iterator[int] = itertools.count(1)
 
 
 class Executable:
-    """A command with its name, working directory and environment, all of them with substitutions.
+    """A command with its name, working directory and environment, which can contain substitutions.
 
     Args:
         cmd: The words of the command.
@@ -104,7 +104,7 @@ class Executable:
 
     @property
     def final_cwd(self) -> str | None:
-        """The working directory, or None for the one of this process."""
+        """The working directory, or None for the current one."""
         return self.__final_cwd
 
     @property
@@ -127,7 +127,7 @@ class Executable:
         self.__final_env = {**base, **program_env, **_perform(context, self.__additional_env or [])}
 
     def _program(self, context: LaunchContext, word: str) -> tuple[Sequence[str], Mapping[str, str]]:
-        """Return the words that start the program, and the variables that it needs. Subclasses override it."""
+        """Return the command line of the program and its environment variables. Subclasses override it."""
         del context
         return [word], {}
 

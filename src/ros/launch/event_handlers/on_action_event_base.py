@@ -72,12 +72,12 @@ class OnActionEventBase(BaseEventHandler):
 
     @property
     def handler_description(self) -> str:
-        """What the handler does, as text."""
+        """A description of the handler's actions."""
         return "<actions>" if self.__on_event is None else f"{self.__on_event}"
 
     @property
     def matcher_description(self) -> str:
-        """Which events match, as text."""
+        """A description of the matching events."""
         action = self.__action_matcher
         target = "any action" if action is None else f"{action}"
         return f"event == {self.__target_event_cls.__name__} and event.action == {target}"

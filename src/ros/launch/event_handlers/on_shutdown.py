@@ -40,7 +40,7 @@ class OnShutdown(BaseEventHandler):
 
     @property
     def matcher_description(self) -> str:
-        """Which events match, as text."""
+        """A description of the matching events."""
         return "event issubclass of launch.events.Shutdown"
 
     def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:

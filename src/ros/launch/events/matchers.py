@@ -14,5 +14,5 @@ __all__ = ["matches_action"]
 
 
 def matches_action(target_action: Action) -> Callable[[Action], bool]:
-    """Return a predicate that holds for this action only."""
+    """Return a predicate that holds only for this action."""
     return lambda action: action is target_action

@@ -12,7 +12,7 @@ __all__ = ["Entity"]
 
 
 class Entity:
-    """An element of a launch file: its name, its attributes and the elements in it."""
+    """An element of a launch file: its name, its attributes and its child elements."""
 
     @property
     def type_name(self) -> str:

@@ -84,7 +84,7 @@ class Parser:
         raise InvalidFrontendLaunchFileError(extension, likely_errors=errors)
 
     def parse_substitution(self, value: Any) -> list[Substitution]:
-        """Return the substitutions of a text."""
+        """Parse a string into substitutions."""
         return parse_text(str(value))
 
     def parse_if_substitutions(self, value: Any) -> Any:
@@ -96,7 +96,7 @@ class Parser:
         return value
 
     def escape_characters(self, value: str) -> str:
-        """Return a text that may not contain substitutions, without its escapes."""
+        """Return a string without its escapes. It must not contain substitutions."""
         return str(value).replace("\\$", "$")
 
     def parse_action(self, entity: Entity) -> Action:

@@ -20,7 +20,7 @@ _MAX_DEPTH = 50
 
 
 def parse_text(text: str) -> list[Substitution]:
-    """Return the parts of a text.
+    """Parse a string into its parts.
 
     Raises:
         ValueError: A substitution is unknown or not complete.
@@ -33,7 +33,7 @@ def parse_text(text: str) -> list[Substitution]:
 
 
 class _Reader:
-    """A position in a text."""
+    """A position in the parsed string."""
 
     def __init__(self, text: str) -> None:
         self.text = text

@@ -243,7 +243,7 @@ def get_logger(name: str | None = None) -> logging.Logger:
 
 
 def get_output_loggers(process_name: str, output_config: str | dict[str, Any]) -> tuple[logging.Logger, logging.Logger]:
-    """Return loggers for the lines of the standard output and of the standard error of a process."""
+    """Return loggers for the lines of standard output and standard error of a process."""
     _destinations(output_config)
     return get_logger(f"{process_name}-stdout"), get_logger(f"{process_name}-stderr")
 

@@ -194,12 +194,12 @@ class IfElseSubstitution(Substitution):
 
     @property
     def if_value(self) -> list[Substitution]:
-        """The text if it is true."""
+        """The string if the condition is true."""
         return self._if_value
 
     @property
     def else_value(self) -> list[Substitution]:
-        """The text if it is false."""
+        """The string if the condition is false."""
         return self._else_value
 
     def describe(self) -> str:

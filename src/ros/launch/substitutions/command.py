@@ -98,7 +98,7 @@ class Command(Substitution):
 
 
 def _cause(stderr: str) -> str:
-    """Return the line that says why a command failed: that of xacro's error, or the last one, as after a traceback."""
+    """Return the line that states why a command failed: xacro's error, or the last line, as after a traceback."""
     lines = [line.strip() for line in stderr.splitlines() if line.strip()]
     return next(filter(_XACRO_ERROR.match, lines), lines[-1] if lines else "")
 

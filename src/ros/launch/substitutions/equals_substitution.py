@@ -39,12 +39,12 @@ class EqualsSubstitution(Substitution):
 
     @property
     def left(self) -> list[Substitution]:
-        """The first text."""
+        """The first operand."""
         return self.__left
 
     @property
     def right(self) -> list[Substitution]:
-        """The second text."""
+        """The second operand."""
         return self.__right
 
     def describe(self) -> str:

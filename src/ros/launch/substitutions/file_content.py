@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The substitution of the text of a file."""
+"""The substitution with the contents of a file."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ __all__ = ["FileContent"]
 
 @expose_substitution("file-content")
 class FileContent(Substitution):
-    """The text of a file."""
+    """The contents of a file."""
 
     def __init__(self, path: SomeSubstitutionsType) -> None:
         self.__path = normalize_to_list_of_substitutions(path)
@@ -46,7 +46,7 @@ class FileContent(Substitution):
         return f"FileContent({' + '.join(part.describe() for part in self.path)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the text."""
+        """Return the string."""
         path = perform_substitutions(context, self.__path)
         try:
             return read_regular_text(path, MAX_BYTES)

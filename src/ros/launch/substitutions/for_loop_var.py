@@ -56,7 +56,7 @@ class _LoopValue(Substitution):
 
 @expose_substitution("for-var")
 class ForEachVar(_LoopValue):
-    """A value of the set for which ForEach visits its actions."""
+    """A value of the current set of values in a ForEach."""
 
     def __init__(self, name: SomeSubstitutionsType, *, default_value: SomeSubstitutionsType | None = None) -> None:
         super().__init__(name)
@@ -76,4 +76,4 @@ class ForEachVar(_LoopValue):
 
 @expose_substitution("index")
 class ForLoopIndex(_LoopValue):
-    """The number for which ForLoop visits its actions."""
+    """The current number in a ForLoop."""

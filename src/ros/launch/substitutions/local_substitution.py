@@ -34,7 +34,7 @@ class LocalSubstitution(Substitution):
         return f"LocalVar('{self.__description or self.__expression}')"
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the value as text."""
+        """Return the value as a string."""
         value: Any = context.get_locals_as_dict()
         position = 0
         while position < len(self.__expression):

@@ -53,7 +53,7 @@ class PathJoinSubstitution(Substitution):
 
 
 class PathSubstitution(PathJoinSubstitution):
-    """A path of one part, to which others are appended: ``PathSubstitution(FindPackageShare("p")) / "launch"``."""
+    """A path to which parts can be appended: ``PathSubstitution(FindPackageShare("p")) / "launch"``."""
 
     def __init__(self, path: SomeSubstitutionsType) -> None:
         super().__init__([path])

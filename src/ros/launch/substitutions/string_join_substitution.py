@@ -51,6 +51,6 @@ class StringJoinSubstitution(Substitution):
         return f"StringJoin({', '.join(parts)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the text."""
+        """Return the string."""
         parts = [perform_substitutions(context, part) for part in self.__substitutions]
         return perform_substitutions(context, self.__delimiter).join(parts)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The substitution of a fixed text."""
+"""The substitution with a constant string."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = ["TextSubstitution"]
 
 
 class TextSubstitution(Substitution):
-    """A fixed text.
+    """A constant string.
 
     Raises:
         TypeError: The text is not a string.
@@ -27,14 +27,14 @@ class TextSubstitution(Substitution):
 
     @property
     def text(self) -> str:
-        """The text."""
+        """The string."""
         return self.__text
 
     def describe(self) -> str:
-        """Return the text in quotes."""
+        """Return the string in quotes."""
         return f"'{self.text}'"
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the text."""
+        """Return the string."""
         del context
         return self.text

@@ -19,7 +19,7 @@ __all__ = ["normalize_to_list_of_entities", "normalize_to_list_of_substitutions"
 
 
 def normalize_to_list_of_substitutions(subs: SomeSubstitutionsType) -> list[Substitution]:
-    """Return a text, a substitution or several of them as a list of substitutions.
+    """Return a string, a substitution or a sequence of them as a list of substitutions.
 
     Raises:
         TypeError: Something else is among them.

@@ -66,7 +66,7 @@ def is_instance_of(value: Any, data_type: Any, *, can_be_str: bool = False) -> b
 
 
 def coerce_to_type(value: str, data_type: Any = None, *, can_be_str: bool = False) -> Any:
-    """Return the value of a text, of the given type or, with None, of the type that YAML gives it.
+    """Convert a string to the given type or, with None, to the type that YAML gives it.
 
     Raises:
         ValueError: The text is not a value of this type.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The order of visiting: an entity, then all that it returns, depth first."""
+"""Visit launch entities depth first: an entity, then the entities that it returns."""
 
 from __future__ import annotations
 

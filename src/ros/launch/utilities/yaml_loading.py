@@ -13,7 +13,7 @@ __all__ = ["dump_yaml", "load_yaml"]
 
 
 def load_yaml(text: str) -> Any:
-    """Return the value of a YAML text.
+    """Return the value of a YAML document.
 
     Raises:
         ValueError: The text is not YAML, or exceeds a limit of :mod:`coframe._files.bounded_yaml`.

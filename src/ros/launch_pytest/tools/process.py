@@ -43,7 +43,7 @@ def wait_for_start_sync(
     Args:
         launch_context: The context of the launch.
         execute_process_action: The process.
-        timeout: Seconds to wait; None for no limit.
+        timeout: Seconds to wait, or None for no limit.
     """
     return _wait_sync(launch_context, execute_process_action, _has_started(execute_process_action), timeout)
 
@@ -63,7 +63,7 @@ def wait_for_exit_sync(
     Args:
         launch_context: The context of the launch.
         execute_process_action: The process.
-        timeout: Seconds to wait; None for no limit.
+        timeout: Seconds to wait, or None for no limit.
     """
     return _wait_sync(launch_context, execute_process_action, _has_ended(execute_process_action), timeout)
 
@@ -88,7 +88,7 @@ def wait_for_output_sync(
         execute_process_action: The process.
         validate_output: Function of the whole output so far, which returns False or raises AssertionError while it is
             not valid.
-        timeout: Seconds to wait; None for no limit.
+        timeout: Seconds to wait, or None for no limit.
     """
     check = _Check(execute_process_action.get_stdout, validate_output)
     return _wait_sync(launch_context, execute_process_action, check.is_valid, timeout)
@@ -111,7 +111,7 @@ def assert_output_sync(
     validate_output: Callable[[str], Any],
     timeout: float | None = None,
 ) -> None:
-    """Fail if the standard output of a process is not valid in time; the arguments are those of `wait_for_output_sync`.
+    """Fail if standard output of a process is not valid in time. For the arguments, see `wait_for_output_sync`.
 
     Raises:
         AssertionError: The error of `validate_output`, or one with the output.
@@ -137,7 +137,7 @@ def wait_for_stderr_sync(
     validate_output: Callable[[str], Any],
     timeout: float | None = None,
 ) -> bool:
-    """Wait for standard error of a process; the arguments are those of `wait_for_output_sync`."""
+    """Wait for standard error of a process. For the arguments, see `wait_for_output_sync`."""
     check = _Check(execute_process_action.get_stderr, validate_output)
     return _wait_sync(launch_context, execute_process_action, check.is_valid, timeout)
 
@@ -255,7 +255,7 @@ async def _wait_until(condition: Callable[[], bool], changed: asyncio.Event) -> 
 def _wait_sync(
     context: LaunchContext, action: ExecuteProcess, condition: Callable[[], bool], timeout: float | None
 ) -> bool:
-    """Check a condition like `_wait`, in a thread other than that of the launch."""
+    """Check a condition like `_wait`, but in a different thread from the launch."""
     loop = context.asyncio_loop
     if loop is None:  # The launch has ended: nothing changes now.
         return condition()

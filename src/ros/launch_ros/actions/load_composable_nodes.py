@@ -38,7 +38,7 @@ _ANSWER = 0.05  # seconds between two checks whether the container has answered
 
 @expose_action("load_composable_node")
 class LoadComposableNodes(Action):
-    """Load composable nodes one after the other; those that cannot be loaded are logged as errors.
+    """Load composable nodes in order. Nodes that cannot be loaded are logged as errors.
 
     Args:
         composable_node_descriptions: The composable nodes.

@@ -137,7 +137,7 @@ class Node(ExecuteLocal):
 
     @property
     def node_name(self) -> str:
-        """The name with its namespace, as far as it is known."""
+        """The full name, or the known part of it."""
         if not self.__are_substitutions_performed:
             raise RuntimeError("cannot access 'node_name' before executing action")
         namespace = self.__expanded_node_namespace

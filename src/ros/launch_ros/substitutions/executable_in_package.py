@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The substitution of the path of an executable of a package."""
+"""The substitution with the path of an executable in a package."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ __all__ = ["FindPackage", "FindPackagePrefix", "FindPackageShare", "PackageNotFo
 
 
 class PackageNotFoundError(SubstitutionFailure):
-    """There is no such package."""
+    """The package does not exist."""
 
 
 class FindPackage(Substitution):

@@ -52,7 +52,7 @@ class Parameter(Substitution):
         return f"Parameter(name={' + '.join(part.describe() for part in self.name)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the value as text."""
+        """Return the value as a string."""
         name = perform_substitutions(context, self.__name)
         for each in reversed(context.launch_configurations.get("global_params", [])):
             if isinstance(each, tuple) and each[0] == name:

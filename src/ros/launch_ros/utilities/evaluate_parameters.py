@@ -75,7 +75,7 @@ def _item(context: LaunchContext, item: Any) -> Any:
 
 
 def _parse_yaml_value(name: str, text: str) -> Any:
-    """Return a text with the type that YAML gives it."""
+    """Convert a string to the type that YAML gives it."""
     try:
         value = load_yaml(text)
     except ValueError as error:

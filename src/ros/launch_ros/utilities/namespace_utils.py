@@ -17,12 +17,12 @@ def is_namespace_absolute(ns: str) -> bool:
 
 
 def make_namespace_absolute(ns: str | None) -> str | None:
-    """Return a namespace with a slash in front; None stays None."""
+    """Return a namespace with a leading slash, or None if it is None."""
     return ns if ns is None or is_namespace_absolute(ns) else "/" + ns
 
 
 def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
-    """Return a namespace below another one. An absolute namespace stays as it is."""
+    """Return a namespace below another one. An absolute namespace is returned unchanged."""
     if base_ns is None and ns is None:
         return None
     if not base_ns or (ns and is_namespace_absolute(ns)):

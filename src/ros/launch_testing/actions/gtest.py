@@ -16,7 +16,7 @@ class GTest(Test):
 
     Args:
         path: The program.
-        timeout: Seconds after which it is stopped; None for no limit.
+        timeout: Seconds after which it is stopped, or None for no limit.
         options: Keyword arguments of ExecuteProcess.
     """
 

@@ -17,7 +17,7 @@ class PyTest(Test):
 
     Args:
         path: The file.
-        timeout: Seconds after which it is stopped; None for no limit.
+        timeout: Seconds after which it is stopped, or None for no limit.
         options: Keyword arguments of ExecuteProcess.
     """
 

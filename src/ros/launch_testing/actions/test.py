@@ -21,7 +21,7 @@ class Test(ExecuteProcess):
     """Run a test program, and stop it if it takes too long.
 
     Args:
-        timeout: Seconds after which the program receives SIGTERM; None for no limit.
+        timeout: Seconds after which the program receives SIGTERM, or None for no limit.
         kill_timeout: Seconds after that until SIGKILL.
         options: Keyword arguments of ExecuteProcess.
     """

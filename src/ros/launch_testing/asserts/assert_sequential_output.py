@@ -17,7 +17,7 @@ __all__ = ["SequentialTextChecker", "assertSequentialStdout"]
 
 
 class SequentialTextChecker:
-    """Checks that texts follow one another.
+    """Checks that strings occur in a given order.
 
     Args:
         text: The parts of the output, in their order.
@@ -28,7 +28,7 @@ class SequentialTextChecker:
         self._position = 0
 
     def assertInStdout(self, msg: str) -> None:
-        """Fail if a text is not in the output after the previous ones.
+        """Fail if a string is not in the output after the previous ones.
 
         Raises:
             AssertionError: It is not there.
@@ -44,7 +44,7 @@ class SequentialTextChecker:
 def assertSequentialStdout(
     proc_output: Any, process: str | ExecuteLocal | None, cmd_args: Any = None
 ) -> Iterator[SequentialTextChecker]:
-    """Yield a checker for texts that one process wrote to standard output one after the other.
+    """Yield a checker for strings that one process wrote to standard output in order.
 
     Args:
         proc_output: The output of the processes.

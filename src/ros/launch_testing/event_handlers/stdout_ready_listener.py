@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The event handler that waits for a text."""
+"""The event handler that waits for an output line."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ __all__ = ["StdoutReadyListener"]
 
 
 class StdoutReadyListener(OnProcessIO):
-    """Executes actions when a process has written a text to standard output.
+    """Executes actions when a process has written a given string to standard output.
 
     Args:
-        target_action: The action of the process; None for all processes.
+        target_action: The action of the process, or None for all processes.
         ready_txt: The text.
         actions: The actions, which are executed once.
     """

@@ -102,7 +102,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> Any:
-    """Collect all tests of a file with the mark as one item."""
+    """Collect all tests of a marked file as one item."""
     module = collector.obj if isinstance(collector, pytest.Module) else None
     description = getattr(module, "generate_test_description", None)
     marks = [mark for mark in getattr(description, "pytestmark", []) if mark.name in _MARKS]

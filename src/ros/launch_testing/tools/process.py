@@ -25,7 +25,7 @@ _SHUTDOWN_TIMEOUT = 20.0  # seconds, longer than those of the signals of a proce
 
 
 class ProcessProxy:
-    """A process of a test: its state, its output, and waiting for both.
+    """A process of a test: its state and its output, and methods that wait for them.
 
     Args:
         process_action: The action of the process.
@@ -51,7 +51,7 @@ class ProcessProxy:
         """Wait for the end of the process, and return whether it has ended.
 
         Args:
-            timeout: Seconds to wait; None for no limit.
+            timeout: Seconds to wait, or None for no limit.
         """
         try:
             self._proc_info.assertWaitForShutdown(process=self._action, timeout=timeout)
@@ -65,7 +65,7 @@ class ProcessProxy:
         Args:
             condition: A text, a regular expression, a list of them, or a function of the whole output; any output by
                 default.
-            timeout: Seconds to wait; None for no limit.
+            timeout: Seconds to wait, or None for no limit.
         """
         expected = bool if condition is None else condition
         changed = self._proc_output._changed  # noqa: SLF001 - the same package

@@ -17,7 +17,7 @@ _DOMAIN_COUNT = 101  # the number of domains whose ports no system takes for oth
 
 
 class EnableRmwIsolation(Action):
-    """Let the processes of a test use a domain that depends on this process, on this machine only.
+    """Let the processes of a test use a separate domain, only on this machine.
 
     ROS_DOMAIN_ID is kept if it is set.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Filters of the output of commands of ROS."""
+"""Filters for the output of ROS commands."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def basic_output_filter(
     """Return a function that removes lines from an output.
 
     Args:
-        filtered_prefixes: Beginnings of lines that are removed; None for those of debuggers.
+        filtered_prefixes: Beginnings of lines that are removed, or None for those of debuggers.
         filtered_patterns: Regular expressions for the beginnings of lines that are removed.
         filtered_rmw_implementation: Name of a middleware's package whose lines are also removed.
     """

@@ -49,7 +49,7 @@ def get_action_server_names_and_types_by_node(
 
 
 def _actions(topics: NamesAndTypes) -> NamesAndTypes:
-    """Return the actions that topics belong to. Each action has exactly one feedback topic."""
+    """Return the actions of topics. Each action has exactly one feedback topic."""
     return [
         (topic.removesuffix(FEEDBACK), [ros_type.removesuffix("_FeedbackMessage") for ros_type in types])
         for topic, types in topics

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Executor that reacts to events. All executors of this package do, so this one only has another name."""
+"""Executor that reacts to events, as all executors of this package do. Only its name differs."""
 
 from rclpy.executors import SingleThreadedExecutor
 

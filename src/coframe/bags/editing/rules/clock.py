@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rule ``clock``: stamps on the other clock are converted, so that all are on one."""
+"""The rule ``clock`` converts all stamps to one clock."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _MIN_RATE = 0.01  # simulated seconds per second, for the way back
 
 
 class Clock(Rule):
-    """``clock wall`` or ``clock sim``: stamps on the other one are converted with the recorded ``/clock``.
+    """``clock wall`` or ``clock sim``: convert stamps on the other clock with the recorded ``/clock``.
 
     A stamp is on the system clock if it is less than an hour from the receive time of its message, and on simulated
     time if it is less than a minute from the time of ``/clock`` then.

@@ -40,7 +40,7 @@ class Dedupe(Rule):
         self._different_count = 0
 
     def step(self, topic: EditedTopic) -> Step | None:
-        """Return the function that drops what repeats an earlier message."""
+        """Return the function that drops repeated messages or transforms."""
         if topic.is_static:
             return None
         if topic.has_transforms:
@@ -72,7 +72,7 @@ class Dedupe(Rule):
         return bool(kept)
 
     def _is_new(self, key: Hashable, what: Hashable, value: Hashable) -> bool:
-        """Remember what was seen; return whether it differs from all before."""
+        """Store a message, and return whether it differs from all earlier messages."""
         seen = self._seen.setdefault(key, OrderedDict())
         if len(self._seen) > _MAX_EDGES:
             self._seen.popitem(last=False)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rule ``drop-publisher``: what one of several publishers of a transform or a topic sent is left out."""
+"""The rule ``drop-publisher`` drops the messages of one of several publishers of a transform or topic."""
 
 from __future__ import annotations
 
@@ -137,7 +137,7 @@ class DropPublisher(Rule):
 
 
 def _pose(one: RecordedTransform, message: EditedMessage) -> NDArray[np.float64]:
-    """Return x, y, z in meters and the quaternion with w of at least 0; distances then mix meters and radians."""
+    """Return x, y, z in meters and the quaternion with w >= 0, for distances that mix meters and radians."""
     values = np.array(struct.unpack(f"{BYTE_ORDERS[message.data[:2]]}7d", one.pose))
     return np.asarray(np.concatenate([values[:3], 2.0 * values[3:] * (1.0 if values[6] >= 0.0 else -1.0)]))
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rule ``prefix``: the frames of a robot get a prefix."""
+"""The rule ``prefix`` adds a prefix to the frames of a robot."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["Prefix"]
 
 
 class Prefix(Rule):
-    """``prefix robot1/ keep map,world``: all frames but the shared ones get the prefix, also in robot descriptions."""
+    """``prefix robot1/ keep map,world``: prefix all frames except the shared ones, also in robot descriptions."""
 
     name = "prefix"
     form = "PREFIX [keep FRAME,FRAME]"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rule ``rename-frame``: a frame gets another name wherever messages name it."""
+"""The rule ``rename-frame`` renames a frame in all messages."""
 
 from __future__ import annotations
 

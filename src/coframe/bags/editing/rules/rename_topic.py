@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rule ``rename-topic``: a topic gets another name."""
+"""The rule ``rename-topic`` renames a topic."""
 
 from __future__ import annotations
 

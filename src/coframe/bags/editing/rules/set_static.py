@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rule ``set-static``: a static transform is added, or replaces the one of its child frame."""
+"""The rule ``set-static`` adds a static transform, or replaces the one of its child frame."""
 
 from __future__ import annotations
 

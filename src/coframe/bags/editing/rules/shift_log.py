@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rule ``shift-log``: the receive times of a topic are moved by a duration; the stamps in its messages stay."""
+"""The rule ``shift-log`` shifts the receive times of a topic. The stamps in its messages are not changed."""
 
 from __future__ import annotations
 

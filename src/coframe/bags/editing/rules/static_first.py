@@ -19,7 +19,7 @@ __all__ = ["StaticFirst"]
 
 
 class StaticFirst(Rule):
-    """``static-first``: what is transformed before the first static transform arrives is possible then."""
+    """``static-first``: write static transforms first, so that lookups before their arrival succeed."""
 
     name = "static-first"
     form = ""
@@ -37,7 +37,7 @@ class StaticFirst(Rule):
                 self._late_statics.setdefault((one.topic, one.header), []).append(one)
 
     def step(self, topic: EditedTopic) -> Step | None:
-        """Return None: the recorded messages stay."""
+        """Return None, because the recorded messages are not changed."""
         del topic
         return None
 

@@ -57,7 +57,7 @@ class RunningProcessEvent(Event):
 
     @property
     def cwd(self) -> str | None:
-        """The working directory, or None for the one of this process."""
+        """The working directory, or None for the current one."""
         return self.__cwd
 
     @property
