@@ -49,33 +49,33 @@ class StampedValues(NamedTuple):
 
 def json_one(data: bytes | memoryview) -> Iterator[StampedValues]:
     """Decode a message that is a transform."""
-    yield _transform(json.loads(bytes(data)))
+    yield _parse_transform(json.loads(bytes(data)))
 
 
 def json_many(data: bytes | memoryview) -> Iterator[StampedValues]:
     """Decode a message with a list of transforms."""
-    message = _object(json.loads(bytes(data)), "the message")
+    message = _require_object(json.loads(bytes(data)), "the message")
     if message and "transforms" not in message:
         raise ValueError(f"no field 'transforms'; the fields are {_names(message)}")
-    yield from map(_transform, message.get("transforms") or [])
+    yield from map(_parse_transform, message.get("transforms") or [])
 
 
-def _transform(value: Any) -> StampedValues:
+def _parse_transform(value: Any) -> StampedValues:
     fields: dict[str, Any] = {}
-    unknown = _collect(_object(value, "a transform"), fields)
+    unknown = _collect_fields(_require_object(value, "a transform"), fields)
     if unknown and "translation" not in fields:  # Protobuf omits a default, but another name is not a default.
         raise ValueError(f"a transform has no translation; its fields are {_names(unknown)}")
     if missing := {"parent", "child"} - set(fields):
         names = _names(_FIELDS[field][0] for field in sorted(missing))
         raise ValueError(f"a transform has no {names}; its fields are {_names(value)}")
-    x, y, z = _numbers(fields.get("translation"), "translation", "xyz")
-    qx, qy, qz, qw = _numbers(fields.get("rotation"), "rotation", "xyzw")
+    x, y, z = _read_numbers(fields.get("translation"), "translation", "xyz")
+    qx, qy, qz, qw = _read_numbers(fields.get("rotation"), "rotation", "xyzw")
     stamp = fields.get("timestamp")
-    nanoseconds = None if stamp is None else _nanoseconds(stamp)
+    nanoseconds = None if stamp is None else _parse_timestamp(stamp)
     return StampedValues(fields["parent"], fields["child"], nanoseconds, (x, y, z, qx, qy, qz, qw))
 
 
-def _collect(value: dict[str, Any], fields: dict[str, Any]) -> list[str]:
+def _collect_fields(value: dict[str, Any], fields: dict[str, Any]) -> list[str]:
     """Add the fields of an object and of the objects in it, and return the names of all others."""
     unknown = []
     for name, content in value.items():
@@ -84,7 +84,7 @@ def _collect(value: dict[str, Any], fields: dict[str, Any]) -> list[str]:
             # The time of the inner object of Foxglove's old schema repeats that of the outer one.
             fields.setdefault(field, content)
         elif name in _NESTED_KEYS:
-            unknown += _collect_flat(_object(content, name), fields)
+            unknown += _collect_flat(_require_object(content, name), fields)
         elif name not in _IGNORED_FIELDS:
             unknown.append(name)
     return unknown
@@ -93,18 +93,18 @@ def _collect(value: dict[str, Any], fields: dict[str, Any]) -> list[str]:
 def _collect_flat(value: dict[str, Any], fields: dict[str, Any]) -> list[str]:
     if any(name in value for name in _NESTED_KEYS):
         raise ValueError("a transform with nested objects is not supported")
-    return _collect(value, fields)
+    return _collect_fields(value, fields)
 
 
-def _numbers(value: Any, what: str, axes: str) -> list[float]:
+def _read_numbers(value: Any, what: str, axes: str) -> list[float]:
     """Return the components of a vector or quaternion; omitted ones are 0, as in protobuf."""
-    components = _object({} if value is None else value, what)
+    components = _require_object({} if value is None else value, what)
     if others := sorted(set(components) - set(axes)):
         raise ValueError(f"the {what} has the fields {_names(others)}, not {', '.join(axes)}")
     return [float(components.get(axis) or 0.0) for axis in axes]
 
 
-def _nanoseconds(stamp: Any) -> int:
+def _parse_timestamp(stamp: Any) -> int:
     """Return a time in nanoseconds.
 
     Raises:
@@ -119,14 +119,14 @@ def _nanoseconds(stamp: Any) -> int:
         fractions = [stamp[name] for name in _NANOSECONDS if name in stamp]
         if len(seconds) <= 1 and len(fractions) <= 1 and len(seconds) + len(fractions) == len(stamp):
             # Protobuf omits zeros.
-            fraction_ns = _integer(fractions[0]) if fractions else 0
+            fraction_ns = _parse_integer(fractions[0]) if fractions else 0
             if not 0 <= fraction_ns < time.SECOND:
                 raise ValueError(f"a timestamp has {fraction_ns} nanoseconds in addition to its seconds")
-            return (_integer(seconds[0]) if seconds else 0) * time.SECOND + fraction_ns
+            return (_parse_integer(seconds[0]) if seconds else 0) * time.SECOND + fraction_ns
     raise ValueError(f"unknown timestamp format: {json.dumps(stamp)[:80]}")
 
 
-def _integer(value: Any) -> int:
+def _parse_integer(value: Any) -> int:
     """Return an integer from a string, a float such as 1.0, or the two 32-bit halves that JavaScript uses."""
     if isinstance(value, int) and not isinstance(value, bool):
         return value
@@ -135,11 +135,11 @@ def _integer(value: Any) -> int:
     if isinstance(value, str) and len(value) <= _MAX_DIGITS and re.fullmatch(r"-?\d+", value, re.ASCII):
         return int(value)
     if isinstance(value, dict) and {"low", "high"} <= set(value) <= {"low", "high", "unsigned"}:
-        return (_integer(value["high"]) << 32) + (_integer(value["low"]) & 0xFFFFFFFF)
+        return (_parse_integer(value["high"]) << 32) + (_parse_integer(value["low"]) & 0xFFFFFFFF)
     raise ValueError(f"a timestamp contains {json.dumps(value)[:80]}, which is not an integer")
 
 
-def _object(value: Any, what: str) -> dict[str, Any]:
+def _require_object(value: Any, what: str) -> dict[str, Any]:
     if not isinstance(value, dict):
         raise TypeError(f"{what} is not an object but {json.dumps(value)[:80]}")
     return value

@@ -147,7 +147,7 @@ class _IdlParser:
         """Read a text."""
         self._tokens = tokens
         while tokens.peek().kind != "end":
-            self._definition(())
+            self._parse_definition(())
 
     def structures(self) -> dict[tuple[str, ...], MessageStructure]:
         """Return the structures, each with its constants."""
@@ -159,19 +159,19 @@ class _IdlParser:
         self._constants.clear()
         return self._structures
 
-    def _definition(self, scope: tuple[str, ...]) -> None:
-        annotations = self._annotations()
+    def _parse_definition(self, scope: tuple[str, ...]) -> None:
+        annotations = self._parse_annotations()
         line = self._tokens.peek().line
         word = self._tokens.take("name").text
         try:
             if word == "module":
-                self._module(scope)
+                self._parse_module(scope)
             elif word == "struct":
-                self._struct(scope, annotations)
+                self._parse_struct(scope, annotations)
             elif word == "const":
-                self._const(scope)
+                self._parse_constant(scope)
             elif word == "typedef":
-                self._typedef(scope)
+                self._parse_typedef(scope)
             else:
                 known = (
                     "rosidl does not support it"
@@ -186,15 +186,15 @@ class _IdlParser:
     def _add_line(self, error: ValueError, line: int) -> InterfaceError:
         return self._tokens.error(str(error), line) if getattr(error, "line", None) is None else error  # type: ignore[return-value]
 
-    def _module(self, scope: tuple[str, ...]) -> None:
+    def _parse_module(self, scope: tuple[str, ...]) -> None:
         if len(scope) == MAX_NESTING:
             raise self._tokens.error(f"modules are nested more than {MAX_NESTING} levels deep")
         inner = (*scope, self._tokens.take("name").text)
         self._tokens.expect("{")
         while not self._tokens.accept("}"):
-            self._definition(inner)
+            self._parse_definition(inner)
 
-    def _struct(self, scope: tuple[str, ...], annotations: _Annotations) -> None:
+    def _parse_struct(self, scope: tuple[str, ...], annotations: _Annotations) -> None:
         name = self._tokens.take("name").text
         if not self._is_recorded:
             check_message_name(name.partition("_")[0])
@@ -206,7 +206,7 @@ class _IdlParser:
         while not self._tokens.accept("}"):
             line = self._tokens.peek().line
             try:
-                for field in self._members(scope):
+                for field in self._parse_members(scope):
                     add_unique(names, field.name)
                     add_member(structure, field)
             except ValueError as error:
@@ -215,9 +215,9 @@ class _IdlParser:
             structure.fields.clear()  # rosidl writes this member into structures without fields.
         self._structures.setdefault(self._remove_dds_parts((*scope, name)), structure)
 
-    def _members(self, scope: tuple[str, ...]) -> list[Field]:
-        default = self._annotations().default
-        type_ = self._type(scope)
+    def _parse_members(self, scope: tuple[str, ...]) -> list[Field]:
+        default = self._parse_annotations().default
+        type_ = self._parse_type(scope)
         fields = []
         while True:
             name = self._tokens.take("name").text
@@ -225,46 +225,46 @@ class _IdlParser:
                 name = name.removesuffix("_")
             if not (_RECORDED_FIELD if self._is_recorded else _FIELD).fullmatch(name):
                 raise ValueError(f"invalid field name {name!r}: use letters, digits and single underscores")
-            full_type = self._dimensions(type_, scope)
-            fields.append(Field(name, full_type, None if default is None else _default(default, full_type)))
+            full_type = self._parse_dimensions(type_, scope)
+            fields.append(Field(name, full_type, None if default is None else _default_literal(default, full_type)))
             if not self._tokens.accept(","):
                 self._tokens.expect(";")
                 return fields
 
-    def _const(self, scope: tuple[str, ...]) -> None:
-        type_ = self._nestable_type(scope)
+    def _parse_constant(self, scope: tuple[str, ...]) -> None:
+        type_ = self._parse_nestable_type(scope)
         name = self._tokens.take("name").text
         self._tokens.expect("=")
         if len(self._constants) == MAX_CONSTANTS:
             raise self._tokens.error(f"the definition has more than {MAX_CONSTANTS} constants")
-        self._constants.setdefault((*scope, name), Constant(name, type_, check_value(self._value(scope), type_)))
+        self._constants.setdefault((*scope, name), Constant(name, type_, check_value(self._parse_value(scope), type_)))
 
-    def _typedef(self, scope: tuple[str, ...]) -> None:
-        type_ = self._type(scope)
+    def _parse_typedef(self, scope: tuple[str, ...]) -> None:
+        type_ = self._parse_type(scope)
         name = self._tokens.take("name").text
-        self._typedefs.setdefault((*scope, name), self._dimensions(type_, scope))
+        self._typedefs.setdefault((*scope, name), self._parse_dimensions(type_, scope))
 
-    def _type(self, scope: tuple[str, ...]) -> AbstractType:
+    def _parse_type(self, scope: tuple[str, ...]) -> AbstractType:
         if not self._tokens.accept("sequence"):
-            return self._single(scope)
+            return self._parse_single_type(scope)
         self._tokens.expect("<")
-        inner = self._nestable_type(scope)
-        bound = self._size(scope, in_brackets=True) if self._tokens.accept(",") else None
+        inner = self._parse_nestable_type(scope)
+        bound = self._parse_size(scope, in_brackets=True) if self._tokens.accept(",") else None
         self._tokens.expect(">")
         return UnboundedSequence(inner) if bound is None else BoundedSequence(inner, bound)
 
-    def _nestable_type(self, scope: tuple[str, ...]) -> AbstractNestableType:
-        type_ = None if self._tokens.peek().text == "sequence" else self._single(scope)
+    def _parse_nestable_type(self, scope: tuple[str, ...]) -> AbstractNestableType:
+        type_ = None if self._tokens.peek().text == "sequence" else self._parse_single_type(scope)
         if not isinstance(type_, AbstractNestableType):
             raise self._tokens.error(
                 "ROS does not support sequences of sequences or arrays; put the inner one into a message"
             )
         return type_
 
-    def _single(self, scope: tuple[str, ...]) -> AbstractType:
+    def _parse_single_type(self, scope: tuple[str, ...]) -> AbstractType:
         name = self._tokens.take("name").text
         if name in {"string", "wstring"}:
-            return self._string(name, scope)
+            return self._parse_string(name, scope)
         while name in {"unsigned", "long"} and self._tokens.peek().text in {"long", "short", "double"}:
             word = self._tokens.take().text
             name = f"{name} {word}"
@@ -280,10 +280,10 @@ class _IdlParser:
             raise self._tokens.error(f"the type {name} is not supported by rosidl")
         return self._named_type(name, scope)
 
-    def _string(self, name: str, scope: tuple[str, ...]) -> AbstractType:
+    def _parse_string(self, name: str, scope: tuple[str, ...]) -> AbstractType:
         bound = None
         if self._tokens.accept("<"):
-            bound = self._size(scope, in_brackets=True)
+            bound = self._parse_size(scope, in_brackets=True)
             self._tokens.expect(">")
         if name == "string":
             return UnboundedString() if bound is None else BoundedString(bound)
@@ -305,10 +305,10 @@ class _IdlParser:
             )
         return NamespacedType(parts[:2], parts[2])
 
-    def _dimensions(self, type_: AbstractType, scope: tuple[str, ...]) -> AbstractType:
+    def _parse_dimensions(self, type_: AbstractType, scope: tuple[str, ...]) -> AbstractType:
         if not self._tokens.accept("["):
             return type_
-        size = self._size(scope)
+        size = self._parse_size(scope)
         self._tokens.expect("]")
         if not isinstance(type_, AbstractNestableType) or self._tokens.peek().text == "[":
             raise self._tokens.error(
@@ -322,10 +322,10 @@ class _IdlParser:
             return path
         return (*path[:-2], path[-1].removesuffix("_"))
 
-    def _size(self, scope: tuple[str, ...], *, in_brackets: bool = False) -> int:
-        return bounded_size(str(self._value(scope, in_brackets=in_brackets)))
+    def _parse_size(self, scope: tuple[str, ...], *, in_brackets: bool = False) -> int:
+        return bounded_size(str(self._parse_value(scope, in_brackets=in_brackets)))
 
-    def _value(self, scope: tuple[str, ...], *, in_brackets: bool = False) -> Any:
+    def _parse_value(self, scope: tuple[str, ...], *, in_brackets: bool = False) -> Any:
         """Take an expression."""
 
         def constant(token: Token) -> Any:
@@ -341,27 +341,27 @@ class _IdlParser:
         except ValueError as error:
             raise self._add_line(error, line) from None
 
-    def _annotations(self) -> _Annotations:
+    def _parse_annotations(self) -> _Annotations:
         default, comment = None, ""
         while self._tokens.accept("@"):
             name = self._tokens.take("name").text
-            values = self._arguments()
+            values = self._parse_arguments()
             if name == "default":
                 default = values.get("value")
             if name == "verbatim" and values.get("language") == "comment":
                 comment = " ".join(str(values.get("text", "")).split())
         return _Annotations(default, comment)
 
-    def _arguments(self) -> dict[str, Any]:
+    def _parse_arguments(self) -> dict[str, Any]:
         values: dict[str, Any] = {}
         if not self._tokens.accept("("):
             return values
         while not self._tokens.accept(")"):
             if self._tokens.peek().kind == "name" and self._tokens.peek().text not in {"TRUE", "FALSE"}:
                 name = self._tokens.take().text
-                values[name] = self._value(()) if self._tokens.accept("=") else None
+                values[name] = self._parse_value(()) if self._tokens.accept("=") else None
             else:
-                values["value"] = self._value(())
+                values["value"] = self._parse_value(())
             self._tokens.accept(",")
         return values
 
@@ -371,7 +371,7 @@ def _scopes(scope: tuple[str, ...], parts: tuple[str, ...]) -> list[tuple[str, .
     return [(*scope[:depth], *parts) for depth in range(len(scope), -1, -1)]
 
 
-def _default(value: Any, type_: AbstractType) -> Any:
+def _default_literal(value: Any, type_: AbstractType) -> Any:
     if not isinstance(type_, AbstractNestedType):
         return check_value(float(value) if _is_float(type_) and isinstance(value, int) else value, type_)
     try:

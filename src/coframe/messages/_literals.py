@@ -35,8 +35,8 @@ def parse_literal(text: str, type_: AbstractType) -> Any:
     if isinstance(type_, AbstractNestedType):
         if not (text.startswith("[") and text.endswith("]")):
             raise ValueError(f"the default of {describe(type_)} must be a list such as [1, 2], not {text}")
-        return check_value([_single(item, type_.value_type) for item in _split_items(text)], type_)
-    return check_value(_single(text, type_), type_)
+        return check_value([_parse_scalar(item, type_.value_type) for item in _split_items(text)], type_)
+    return check_value(_parse_scalar(text, type_), type_)
 
 
 def check_value(value: Any, type_: AbstractType) -> Any:
@@ -46,12 +46,12 @@ def check_value(value: Any, type_: AbstractType) -> Any:
         ValueError: The type cannot hold the value.
     """
     if isinstance(type_, AbstractNestedType):
-        return _checked_values(value, type_)
+        return _check_values(value, type_)
     if isinstance(type_, NamespacedType):
         text = f"a field of type {describe(type_)} cannot have a default: only numbers and strings can"
         raise ValueError(text)  # noqa: TRY004 - the definition is wrong, not the call
     if not isinstance(type_, BasicType):
-        return _checked_text(value, type_)
+        return _check_text(value, type_)
     if type_.typename == "boolean":
         return _require_fitting(value, isinstance(value, bool), "boolean")
     if type_.typename in {"float", "double"}:
@@ -60,7 +60,7 @@ def check_value(value: Any, type_: AbstractType) -> Any:
         if fits:
             fits = abs(value) <= bound or value != value or abs(value) == float("inf")  # noqa: PLR0124 - NaN
         return float(_require_fitting(value, fits, type_.typename))
-    return _checked_integer(value, type_.typename)
+    return _check_integer(value, type_.typename)
 
 
 def _require_fitting(value: Any, fits: object, type_name: str) -> Any:
@@ -69,7 +69,7 @@ def _require_fitting(value: Any, fits: object, type_name: str) -> Any:
     return value
 
 
-def _checked_integer(value: Any, typename: str) -> Any:
+def _check_integer(value: Any, typename: str) -> Any:
     signed, _, digits = typename.partition("int")
     bits = int(digits or 8)
     low, high = (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) if digits and signed != "u" else (0, 2**bits - 1)
@@ -78,7 +78,7 @@ def _checked_integer(value: Any, typename: str) -> Any:
     return bytes([value]) if typename == "octet" else value
 
 
-def _checked_text(value: Any, type_: AbstractType) -> str:
+def _check_text(value: Any, type_: AbstractType) -> str:
     _require_fitting(value, isinstance(value, str), describe(type_))
     if "\0" in value:
         raise ValueError("a string cannot contain a NUL character")
@@ -87,7 +87,7 @@ def _checked_text(value: Any, type_: AbstractType) -> str:
     return str(value)
 
 
-def _checked_values(values: Any, type_: AbstractNestedType) -> list[Any]:
+def _check_values(values: Any, type_: AbstractNestedType) -> list[Any]:
     _require_fitting(values, isinstance(values, (list, tuple)), describe(type_))
     if isinstance(type_, Array) and len(values) != type_.size:
         raise ValueError(f"{describe(type_)} needs {type_.size} values, found {len(values)}")
@@ -96,7 +96,7 @@ def _checked_values(values: Any, type_: AbstractNestedType) -> list[Any]:
     return [check_value(value, type_.value_type) for value in values]
 
 
-def _single(text: str, type_: AbstractType) -> Any:
+def _parse_scalar(text: str, type_: AbstractType) -> Any:
     if isinstance(type_, NamespacedType):
         return text  # checked() explains why this is not possible.
     if not isinstance(type_, BasicType):

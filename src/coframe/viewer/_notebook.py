@@ -16,7 +16,7 @@ from coframe._output import html_tables
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["Inline", "replay_frame", "suitable_inline", "viewer_frame"]
+__all__ = ["Inline", "choose_inline", "replay_frame", "viewer_frame"]
 
 Inline = Literal["viewer", "replay"]
 
@@ -41,17 +41,17 @@ text.then((page) => {{ document.open(); document.write(page); document.close(); 
 </script>"""
 
 
-def suitable_inline(environment: Mapping[str, str] = os.environ) -> Inline:
+def choose_inline(environment: Mapping[str, str] = os.environ) -> Inline:
     """Return the suitable display of a notebook: the running viewer only if its user has a browser on this machine.
 
     Args:
         environment: The environment variables.
     """
     remote = any(name in environment for name in _REMOTE_VARIABLES) or any(file.exists() for file in _CONTAINER_FILES)
-    return "replay" if remote or not _has_user() else "viewer"
+    return "replay" if remote or not _is_interactive() else "viewer"
 
 
-def _has_user() -> bool:
+def _is_interactive() -> bool:
     """Return False if a program such as nbconvert or papermill executes the notebook: `input()` then fails."""
     ipython = sys.modules.get("IPython")
     kernel = getattr(ipython.get_ipython() if ipython is not None else None, "kernel", None)

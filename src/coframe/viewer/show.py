@@ -16,7 +16,7 @@ from coframe.connection.connection import Connection
 from coframe.errors import ViewerError
 from coframe.robots import load
 from coframe.transform.transform import Transform
-from coframe.viewer._notebook import replay_frame, suitable_inline, viewer_frame
+from coframe.viewer._notebook import choose_inline, replay_frame, viewer_frame
 from coframe.viewer._state import ViewerState
 from coframe.viewer.replay.export import export_replay
 from coframe.viewer.robots.joints import JOINT_STATES
@@ -137,7 +137,7 @@ class Viewer:
         return f"<coframe viewer at {self.url}>"
 
     def _repr_html_(self) -> str:
-        if (self._inline or suitable_inline()) == "viewer":
+        if (self._inline or choose_inline()) == "viewer":
             return viewer_frame(self.url)
         try:
             return replay_frame(self._export(self._sources[-1]))

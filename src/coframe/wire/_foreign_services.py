@@ -26,13 +26,13 @@ def foreign_services_text(topic: str, middleware: str, node: str | None, *, is_w
     return (
         f"{who} uses {middleware}, so {effect.format(service)}: services, actions and parameters need the same "
         "middleware on both sides, and coframe uses Cyclone DDS. Start that node with "
-        f"RMW_IMPLEMENTATION=rmw_cyclonedds_cpp.{_fast_dds_remedy() if middleware == vendors.FAST_DDS else ''} Or use "
+        f"RMW_IMPLEMENTATION=rmw_cyclonedds_cpp.{_fast_dds_hint() if middleware == vendors.FAST_DDS else ''} Or use "
         "Zenoh for both: RMW_IMPLEMENTATION=rmw_zenoh_cpp there, and --wire zenoh or COFRAME_WIRE=zenoh here. Topics "
         "and transforms work."
     )
 
 
-def _fast_dds_remedy() -> str:
+def _fast_dds_hint() -> str:
     """Return how to use coframe on Fast DDS, whose services work with both implementations of DDS."""
     if _FAST_DDS_WIRE in selection.wires():
         return f" Or start this program with {selection.VARIABLE}={_FAST_DDS_WIRE}."

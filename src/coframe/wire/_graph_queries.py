@@ -54,7 +54,7 @@ class GraphQueries:
 
     def publishers(self, topic: str, *, kind: Kind = "topic") -> list[EndpointInfo]:
         """Return the publishers on a topic, given its ROS name."""
-        return self._describe(self._graph.writers(names.dds_topic(topic, kind)))
+        return self._describe_endpoints(self._graph.writers(names.dds_topic(topic, kind)))
 
     def published(self) -> dict[str, dict[int, EndpointInfo]]:
         """Return the publishers of every topic: {ROS name of the topic: {handle of the writer: publisher}}.
@@ -79,7 +79,7 @@ class GraphQueries:
 
     def subscribers(self, topic: str, *, kind: Kind = "topic") -> list[EndpointInfo]:
         """Return the subscriptions to a topic, given its ROS name."""
-        return self._describe(self._graph.readers(names.dds_topic(topic, kind)))
+        return self._describe_endpoints(self._graph.readers(names.dds_topic(topic, kind)))
 
     def writers(self, topic: str) -> dict[int, DiscoveredEndpoint]:
         """Return the writers on a topic, given its ROS name, by the handles in `Sample.writer`."""
@@ -93,5 +93,5 @@ class GraphQueries:
         """Return a writer by its handle, or None if it has left."""
         return self._graph.writer(handle)
 
-    def _describe(self, endpoints: dict[int, DiscoveredEndpoint]) -> list[EndpointInfo]:
+    def _describe_endpoints(self, endpoints: dict[int, DiscoveredEndpoint]) -> list[EndpointInfo]:
         return [self._graph.describe(endpoint) for endpoint in endpoints.values()]

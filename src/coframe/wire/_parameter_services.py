@@ -49,7 +49,7 @@ class ParameterServices:
 
     def __init__(self, participant: Participant) -> None:
         self._participant = participant
-        self._served: set[GraphNode] = set()
+        self._served_nodes: set[GraphNode] = set()
         self._services: list[_Service] = []
         self._lock = threading.Lock()
         self._event = _core.Event()
@@ -65,8 +65,8 @@ class ParameterServices:
         """
         for node in nodes:
             topics = {names.dds_topic(f"{node.full_name}/{service}", "request") for service in _TYPES}
-            if node not in self._served and not topics.isdisjoint(requested):
-                self._served.add(node)
+            if node not in self._served_nodes and not topics.isdisjoint(requested):
+                self._served_nodes.add(node)
                 self._create(node)
 
     def close(self) -> None:

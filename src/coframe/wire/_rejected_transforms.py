@@ -58,7 +58,7 @@ class RejectedTransformMonitor:
         self._warn = warn
         self._buffers: weakref.WeakKeyDictionary[TfReader, Buffer] = weakref.WeakKeyDictionary()
         # For each buffer and reason: the count at the last warning, and its time.
-        self._reported: dict[tuple[int, str], tuple[int, float]] = {}
+        self._reported_counts: dict[tuple[int, str], tuple[int, float]] = {}
 
     def add(self, reader: TfReader, buffer: Buffer) -> None:
         """Monitor the transforms that `reader` stores in `buffer`."""
@@ -67,14 +67,14 @@ class RejectedTransformMonitor:
     def check(self, readers: list[TfReader]) -> None:
         """Warn about transforms of `readers` that were rejected since the last warning."""
         buffers = {id(buffer): buffer for reader in readers if (buffer := self._buffers.get(reader)) is not None}
-        self._reported = {key: reported for key, reported in self._reported.items() if key[0] in buffers}
+        self._reported_counts = {key: reported for key, reported in self._reported_counts.items() if key[0] in buffers}
         for number, buffer in buffers.items():
             counts = buffer.statistics
             counts["refused"] -= counts["over_limit"]
             for kind, (verb, what, reason) in _REASONS.items():
-                before, at = self._reported.get((number, kind), (0, -_REPEAT_AFTER))
+                before, at = self._reported_counts.get((number, kind), (0, -_REPEAT_AFTER))
                 if counts[kind] > before and time.monotonic() - at >= _REPEAT_AFTER:
-                    self._reported[number, kind] = counts[kind], time.monotonic()
+                    self._reported_counts[number, kind] = counts[kind], time.monotonic()
                     sources = [reader for reader in readers if self._buffers.get(reader) is buffer]
                     count = counts[kind] - before
                     self._warn(f"{verb} {count} of the {what} {self._origin(sources)}: {reason}")

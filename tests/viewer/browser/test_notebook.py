@@ -21,7 +21,7 @@ from PIL import Image
 
 import coframe
 from coframe.viewer import _notebook as notebook
-from coframe.viewer._notebook import suitable_inline
+from coframe.viewer._notebook import choose_inline
 
 sync_api = pytest.importorskip("playwright.sync_api", reason="the browser tests need playwright")
 
@@ -227,7 +227,7 @@ def test_what_is_displayed_depends_on_the_surroundings(
     ipython = SimpleNamespace(get_ipython=lambda: SimpleNamespace(kernel=Kernel(allow_stdin=allow_stdin)))
     monkeypatch.setitem(sys.modules, "IPython", ipython)
     monkeypatch.setattr(notebook, "_CONTAINER_FILES", [tmp_path] if container else [])
-    assert suitable_inline(variables) == expected
+    assert choose_inline(variables) == expected
 
 
 def test_options_and_limits(view, monkeypatch):

@@ -143,7 +143,7 @@ class FieldColumn:
         self.leaves = self._readers[type(first)].leaves
         if method == "interpolate":
             check_interpolation(label, self.leaves)
-        self._unusual, self._longest, self._rows = 0, 0, 0
+        self._unusual_count, self._longest, self._rows = 0, 0, 0
 
     @property
     def samples(self) -> NDArray[np.int64]:
@@ -208,11 +208,12 @@ class FieldColumn:
 
     def note(self) -> str:
         """Return a sentence about values in unusually long gaps between messages, or "" if there are none."""
-        if not self._unusual:
+        if not self._unusual_count:
             return ""
         how = "are interpolated over gaps of up to" if self._method == "interpolate" else "come from messages up to"
         away = "" if self._method == "interpolate" else " away"
-        return f"{self._unusual} of {count(self._rows, 'value')} of {self.label} {how} {duration(self._longest)}{away}"
+        covered = f"{self._unusual_count} of {count(self._rows, 'value')} of {self.label}"
+        return f"{covered} {how} {duration(self._longest)}{away}"
 
     def _count_unusual(self, picks: MatchedRows) -> None:
         limit = self._max_gap if self._method == "interpolate" else self._tolerance
@@ -221,7 +222,7 @@ class FieldColumn:
             return
         distance = np.where(picks.valid, picks.gap if self._method == "interpolate" else np.abs(picks.age), 0)
         usual = usual_gap(usual_period(self.samples))
-        self._unusual += int((distance > usual).sum())
+        self._unusual_count += int((distance > usual).sum())
         self._longest = max(self._longest, int(distance.max(initial=0)))
 
     def _scan(self, reader: FieldReader) -> tuple[dict[tuple[str, ...], list[str]], NDArray[np.intp]]:

@@ -84,7 +84,7 @@ class CurvesFeed(_PanelFeed):
         return CurvePoints(number, reset, points.times, points.values)
 
 
-class _Inspected(NamedTuple):
+class _InspectedMessage(NamedTuple):
     """An inspected message, or why there is none; `key` identifies it and begins with the serial of the topic."""
 
     key: tuple[int, object]
@@ -102,8 +102,8 @@ class InspectionFeed(_PanelFeed):
     def __init__(self, client: ClientState) -> None:
         super().__init__(client)
         self._late_due = 0.0
-        self._work: Future[_Inspected] | None = None
-        self._shown = _Inspected((0, None), "waiting", "")
+        self._inspection: Future[_InspectedMessage] | None = None
+        self._shown = _InspectedMessage((0, None), "waiting", "")
 
     def updates(self, now: float) -> Iterator[Update]:
         """Yield the last message that was read."""
@@ -115,11 +115,11 @@ class InspectionFeed(_PanelFeed):
             self._late_due = now + _LATE_PERIOD
             panels.open_inspected()
         self._read(panels.inspected)
-        if self._work is not None and self._work.done():
-            found, self._work = self._work.result(), None
+        if self._inspection is not None and self._inspection.done():
+            found, self._inspection = self._inspection.result(), None
             if found.key[0] == panels.serial:
                 self._shown = found
-        elif self._work is not None:
+        elif self._inspection is not None:
             self.due = now + _READING_PERIOD
         publishers = self._publishers()
         if self._shown.key[0] == panels.serial:
@@ -129,17 +129,17 @@ class InspectionFeed(_PanelFeed):
         """Start to read the message at the displayed time, unless it is already shown."""
         panels, at = self._panels, self._client.at
         if messages is None:
-            why = self._why_missing(panels.topic)
-            self._shown = _Inspected((panels.serial, why), "waiting", why)
+            why = self._missing_message_reason(panels.topic)
+            self._shown = _InspectedMessage((panels.serial, why), "waiting", why)
             return
         found = messages.at(at)
         key = (panels.serial, None if found is None else found.key)
         if found is None:
             when = "yet" if at == 0 else "before this time"
-            self._shown = _Inspected(key, "waiting", f"no message {when}", messages.type)
-        elif key != self._shown.key and self._work is None:
+            self._shown = _InspectedMessage(key, "waiting", f"no message {when}", messages.type)
+        elif key != self._shown.key and self._inspection is None:
             executor = self._client.viewer.executor
-            self._work = executor.submit(_read_message, key, panels.topic, messages, found, at)
+            self._inspection = executor.submit(_read_message, key, panels.topic, messages, found, at)
 
     def _encode(self, publishers: Sequence[str]) -> str:
         shown = self._shown
@@ -157,7 +157,7 @@ class InspectionFeed(_PanelFeed):
             )
         )
 
-    def _why_missing(self, topic: str) -> str:
+    def _missing_message_reason(self, topic: str) -> str:
         connection = self._client.viewer.source.connection
         if self._panels.problem:
             return self._panels.problem
@@ -176,11 +176,11 @@ class InspectionFeed(_PanelFeed):
 
 def _read_message(
     key: tuple[int, object], topic: str, messages: TopicMessages, message: StampedMessage, at: int
-) -> _Inspected:
+) -> _InspectedMessage:
     """Return the content of a message, or an error message, because a message may contain anything."""
     from coframe.viewer.panels.message_fields import message_rows  # noqa: PLC0415 - needs the message classes
 
-    failed = _Inspected(key, "error", "", messages.type, message.time, _rate(messages, at))
+    failed = _InspectedMessage(key, "error", "", messages.type, message.time, _rate(messages, at))
     try:
         content: Any = message.read()
         if isinstance(content, bytes):

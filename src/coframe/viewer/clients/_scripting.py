@@ -22,13 +22,13 @@ if TYPE_CHECKING:
 
 __all__ = ["NodesFeed", "SentRecords", "WidgetsFeed"]
 
-R = TypeVar("R", bound=Record)
+RecordT = TypeVar("RecordT", bound=Record)
 
 MAX_UPDATE_BYTES = 16 << 20
 """The bytes of geometry after which the rest of the nodes waits for the next update."""
 
 
-class _Sent(NamedTuple):
+class _SentVersions(NamedTuple):
     version: int
     geometry_version: int
 
@@ -44,16 +44,16 @@ class SentRecords:
     def __init__(self) -> None:
         self.revision = 0
         self.count = 0
-        self._sent: dict[int, _Sent] = {}
+        self._sent: dict[int, _SentVersions] = {}
 
-    def version(self, record: Record) -> _Sent | None:
+    def version(self, record: Record) -> _SentVersions | None:
         """Return the version of a record that the client has, or None if it does not have the record."""
         return self._sent.get(record.id)
 
     def add(self, record: Record, geometry_version: int = 0) -> None:
         """Remember that a record was sent."""
         self.count += 1
-        self._sent[record.id] = _Sent(record.version, geometry_version)
+        self._sent[record.id] = _SentVersions(record.version, geometry_version)
 
     def forget(self, records: Sequence[Record]) -> list[int]:
         """Forget all but these records and return the ids of the others."""
@@ -120,7 +120,7 @@ class NodesFeed:
         sent.revision = revision
 
 
-def _read(store: RecordStore[R]) -> tuple[int, list[R]]:
+def _read(store: RecordStore[RecordT]) -> tuple[int, list[RecordT]]:
     with store.lock:
         return store.revision, store.all()
 

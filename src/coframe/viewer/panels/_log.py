@@ -57,12 +57,12 @@ class Log:
         self.total = 0
         self.text = ""
         self._users = 0
-        self._due = self._follow_due = 0.0
+        self._due = self._next_follow = 0.0
         self._subscription: AdaptiveSubscription | None = None
         self._executor: ThreadPoolExecutor | None = None
         self._reading: Future[list[LogLine]] | None = None
         self._closed = False
-        self._own = own
+        self._own_messages = own
 
     def open(self) -> None:
         """Receive messages. Call `release` at the end."""
@@ -88,11 +88,11 @@ class Log:
             return
         self._due = now + _PERIOD
         self._collect_recorded()
-        self._add(self._own.take())
+        self._add(self._own_messages.take())
         if self._subscription is None:
             return
-        if now >= self._follow_due:
-            self._follow_due = now + _FOLLOW_PERIOD
+        if now >= self._next_follow:
+            self._next_follow = now + _FOLLOW_PERIOD
             self._subscription.follow()
         taken = 0
         while (

@@ -54,7 +54,7 @@ class NodeGraphWatcher:
         self._changed = _core.Event()
         self._users = 0
         self._due = 0.0
-        self.graph = _empty(_NO_GRAPH[source.mode])
+        self.graph = _empty_graph(_NO_GRAPH[source.mode])
         self.version = 0
 
     def open(self) -> None:
@@ -125,7 +125,7 @@ def describe_graph(connection: Connection) -> NodeGraph:
         text=f"{left_out} more connections are not shown: the graph shows at most {MAX_LINKS}." if left_out else "",
         nodes=[GraphNode(name=name, infrastructure=name in own) for name in nodes],
         topics=topics,
-        links=_without_copies(links),
+        links=_merge_links(links),
     )
 
 
@@ -169,10 +169,10 @@ def _is_infrastructure(topic: str) -> bool:
     return topic in _INFRASTRUCTURE or "/_" in topic
 
 
-def _without_copies(links: Iterable[GraphLink]) -> list[GraphLink]:
+def _merge_links(links: Iterable[GraphLink]) -> list[GraphLink]:
     """Merge equal links of a node, such as the links of several listeners."""
     return list({tuple(link.values()): link for link in links}.values())
 
 
-def _empty(text: str) -> NodeGraph:
+def _empty_graph(text: str) -> NodeGraph:
     return NodeGraph(type="graph", text=text, nodes=[], topics=[], links=[])

@@ -21,7 +21,7 @@ _MAX_ROWS = 400
 _MAX_DEPTH = 12
 _MAX_TEXT = 300
 _MAX_ELEMENTS = 16  # elements of a sequence that have separate rows
-_EDGE = 3  # elements at each end of a shortened array
+_EDGE_ELEMENTS = 3  # elements at each end of a shortened array
 _MAX_NAMES = 200
 
 
@@ -52,17 +52,17 @@ def field_paths(message: Any, path: str) -> list[str]:
         name, _, index = step.partition("[")
         if name not in field_names(value):
             return []
-        value = _element(value, name) if index else _get(value, name)
+        value = _element(value, name) if index else _read_field(value, name)
     prefix = "".join(f"{step}." for step in steps)
     wanted = begin.partition("[")[0].lower()
     names = [name for name in field_names(value)[:_MAX_NAMES] if name.lower().startswith(wanted)]
-    return [prefix + name + ("[0]" if _is_sequence(_get(value, name)) else "") for name in names]
+    return [prefix + name + ("[0]" if _is_sequence(_read_field(value, name)) else "") for name in names]
 
 
 def _fields(message: Any, path: str, depth: int) -> Iterator[InspectedField]:
     types = _types(message)
     for name in field_names(message):
-        yield from _value(_get(message, name), f"{path}.{name}", depth, name, types.get(name, ""))
+        yield from _value(_read_field(message, name), f"{path}.{name}", depth, name, types.get(name, ""))
 
 
 def _value(value: Any, path: str, depth: int, name: str, type_: str) -> Iterator[InspectedField]:
@@ -114,9 +114,9 @@ def _number(value: Any) -> str:
 
 
 def _array_text(numbers: np.ndarray[Any, Any]) -> str:
-    if len(numbers) <= 2 * _EDGE + 1:
+    if len(numbers) <= 2 * _EDGE_ELEMENTS + 1:
         return f"[{' '.join(map(_number, numbers))}]"
-    first, last = (" ".join(map(_number, part)) for part in (numbers[:_EDGE], numbers[-_EDGE:]))
+    first, last = (" ".join(map(_number, part)) for part in (numbers[:_EDGE_ELEMENTS], numbers[-_EDGE_ELEMENTS:]))
     return f"[{first} … {last}] ({len(numbers)})"
 
 
@@ -135,13 +135,13 @@ def _element_type(type_: str) -> str:
     return type_.partition("[")[0] if "[" in type_ else ""
 
 
-def _get(value: Any, name: str) -> Any:
+def _read_field(value: Any, name: str) -> Any:
     return value[name] if isinstance(value, dict) else getattr(value, name, None)
 
 
 def _element(value: Any, name: str) -> Any:
     """Return an element of a sequence, or a new message of its type if it is empty."""
-    found = _get(value, name)
+    found = _read_field(value, name)
     if isinstance(found, list | tuple) and found:
         return found[0]
     package, _, short = _element_type(_types(value).get(name, "")).rpartition("/")

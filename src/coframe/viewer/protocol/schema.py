@@ -114,17 +114,17 @@ class Number:
     def check(self, value: object, path: str) -> float:
         """Return the number."""
         if isinstance(value, bool) or not isinstance(value, int | float):
-            raise InvalidFieldError(path, self._expected(), value)
+            raise InvalidFieldError(path, self._expected_text(), value)
         limits = self.limits
         if isinstance(limits, Clamp) and value == value:  # noqa: PLR0124 - NaN differs from itself
             value = min(max(value, limits.smallest), limits.largest)
         # A huge int cannot be converted to a float, and the limits of an integer must be compared exactly.
         in_range = limits is None or limits.smallest <= value <= limits.largest
         if not in_range or not _is_finite(value) or (self.whole and value != int(value)):
-            raise InvalidFieldError(path, self._expected(), value)
+            raise InvalidFieldError(path, self._expected_text(), value)
         return int(value) if self.whole else float(value)
 
-    def _expected(self) -> str:
+    def _expected_text(self) -> str:
         kind = "a whole number" if self.whole else "a number"
         return f"{kind} from {self.limits.smallest:g} to {self.limits.largest:.10g}" if self.limits else kind
 

@@ -22,15 +22,15 @@ __all__ = [
     "MAX_COORDINATE",
     "MAX_NAME",
     "MAX_TEXT",
-    "faces_of",
-    "flag_of",
-    "name_of",
     "number_of",
+    "parse_faces",
+    "parse_flag",
+    "parse_name",
+    "parse_quaternion",
+    "parse_text",
+    "parse_vector",
+    "parse_vertices",
     "pose_of",
-    "quaternion_of",
-    "text_of",
-    "vector_of",
-    "vertices_of",
 ]
 
 MAX_NAME = 200  # characters
@@ -39,7 +39,7 @@ MAX_COORDINATE = 1e9  # meters
 _KINDS = {"b": "booleans", "O": "objects", "S": "bytes", "U": "text", "c": "complex numbers"}
 
 
-def name_of(value: Any) -> str:
+def parse_name(value: Any) -> str:
     """Return the name of a node without slashes at its ends: the path of the node."""
     if not isinstance(value, str):
         raise SceneError(f"name: expected a string such as 'camera/cloud', not {_shown(value)}")
@@ -51,7 +51,7 @@ def name_of(value: Any) -> str:
     return name
 
 
-def text_of(value: Any, argument: str, most: int = MAX_TEXT) -> str:
+def parse_text(value: Any, argument: str, most: int = MAX_TEXT) -> str:
     """Return a string of limited length."""
     if not isinstance(value, str):
         raise SceneError(f"{argument}: expected a string, not {_shown(value)}")
@@ -60,7 +60,7 @@ def text_of(value: Any, argument: str, most: int = MAX_TEXT) -> str:
     return value.encode(errors="replace").decode()  # Half of a surrogate pair is not a character.
 
 
-def flag_of(value: Any, argument: str) -> bool:
+def parse_flag(value: Any, argument: str) -> bool:
     """Return a boolean."""
     if not isinstance(value, bool | np.bool_):
         raise SceneError(f"{argument}: expected True or False, not {_shown(value)}")
@@ -83,22 +83,22 @@ def number_of(value: Any, argument: str, low: float = -math.inf, high: float = m
     return number
 
 
-def vector_of(value: Any, argument: str) -> tuple[float, float, float]:
+def parse_vector(value: Any, argument: str) -> tuple[float, float, float]:
     """Return a position in meters, (3,)."""
-    x, y, z = _array(value, argument, [(3,)], "three numbers, in meters").tolist()
+    x, y, z = _parse_array(value, argument, [(3,)], "three numbers, in meters").tolist()
     return x, y, z
 
 
-def radii_of(value: Any, argument: str = "radius") -> NDArray[np.float64]:
+def parse_radii(value: Any, argument: str = "radius") -> NDArray[np.float64]:
     """Return one radius, or three along x, y and z, in meters."""
     radii = np.asarray(value) if isinstance(value, list | tuple | np.ndarray) else np.empty(())
-    numbers = [value] if radii.ndim == 0 else vector_of(value, argument)
+    numbers = [value] if radii.ndim == 0 else parse_vector(value, argument)
     return np.array([number_of(number, argument, 0.0, MAX_COORDINATE) for number in numbers])
 
 
-def quaternion_of(value: Any, argument: str = "quaternion") -> tuple[float, float, float, float]:
+def parse_quaternion(value: Any, argument: str = "quaternion") -> tuple[float, float, float, float]:
     """Return a normalized quaternion x, y, z, w, (4,)."""
-    numbers = _array(value, argument, [(4,)], "a quaternion x, y, z, w")
+    numbers = _parse_array(value, argument, [(4,)], "a quaternion x, y, z, w")
     length = float(np.linalg.norm(numbers))
     if length < 1e-6:
         raise SceneError(f"{argument}: a quaternion of length {length:g} is not a rotation", hint="Use (0, 0, 0, 1).")
@@ -115,15 +115,15 @@ def pose_of(value: Any, argument: str = "pose") -> Pose:
         )
     if value.shape:
         raise SceneError(f"{argument}: expected one transform, not a batch of shape {value.shape}")
-    return *vector_of(value.translation, argument), *quaternion_of(value.quaternion, argument)
+    return *parse_vector(value.translation, argument), *parse_quaternion(value.quaternion, argument)
 
 
-def vertices_of(value: Any, argument: str, shapes: Sequence[tuple[int | None, ...]]) -> NDArray[np.float64]:
+def parse_vertices(value: Any, argument: str, shapes: Sequence[tuple[int | None, ...]]) -> NDArray[np.float64]:
     """Return positions in meters of one of the given shapes; None stands for any number."""
-    return _array(value, argument, shapes, "positions in meters")
+    return _parse_array(value, argument, shapes, "positions in meters")
 
 
-def faces_of(value: Any, argument: str, vertices: int) -> NDArray[np.uint32]:
+def parse_faces(value: Any, argument: str, vertices: int) -> NDArray[np.uint32]:
     """Return indices of vertices, (N, 3)."""
     faces = _numbers(value, argument)
     if faces.ndim != 2 or faces.shape[1] != 3:
@@ -136,7 +136,9 @@ def faces_of(value: Any, argument: str, vertices: int) -> NDArray[np.uint32]:
     return faces.astype(np.uint32)
 
 
-def _array(value: Any, argument: str, shapes: Sequence[tuple[int | None, ...]], meaning: str) -> NDArray[np.float64]:
+def _parse_array(
+    value: Any, argument: str, shapes: Sequence[tuple[int | None, ...]], meaning: str
+) -> NDArray[np.float64]:
     numbers = _numbers(value, argument)
     if not any(_matches(numbers.shape, shape) for shape in shapes):
         wanted = " or ".join(_shape(shape) for shape in shapes)

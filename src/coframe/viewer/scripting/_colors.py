@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
     from coframe.viewer.protocol.common import Vector
 
-__all__ = ["MAX_IMAGE_PIXELS", "color_of", "colors_of", "flat_colors_of", "pixels_of"]
+__all__ = ["MAX_IMAGE_PIXELS", "parse_color", "parse_colors", "parse_pixels", "parse_vertex_colors"]
 
 MAX_IMAGE_PIXELS = 1 << 22
 _HEX = re.compile(r"#[0-9a-fA-F]{6}")
 
 
-def color_of(value: Any, argument: str = "color") -> Vector | None:
+def parse_color(value: Any, argument: str = "color") -> Vector | None:
     """Return red, green and blue from 0 to 1; None, the default color, stays None.
 
     Args:
@@ -47,7 +47,7 @@ def color_of(value: Any, argument: str = "color") -> Vector | None:
     return red, green, blue
 
 
-def colors_of(value: Any, count: int, argument: str = "colors", each: str = "point") -> NDArray[np.uint8]:
+def parse_colors(value: Any, count: int, argument: str = "colors", each: str = "point") -> NDArray[np.uint8]:
     """Return red, green, blue and alpha, (N, 4), of each of `count` points; (0, 4) for None.
 
     Args:
@@ -63,20 +63,20 @@ def colors_of(value: Any, count: int, argument: str = "colors", each: str = "poi
         raise SceneError(f"{argument}: expected the shape (N, 3), a color for each {each}, not {colors.shape}")
     if len(colors) != count:
         raise SceneError(f"{argument}: {len(colors)} colors for {count} {each}s; expected one for each")
-    return _with_alpha(colors)
+    return _add_alpha(colors)
 
 
-def flat_colors_of(value: Any, count: int) -> NDArray[np.uint8]:
-    """Return the colors of `count` vertices as :func:`colors_of` does, also from an array (N, 2, 3) for lines."""
+def parse_vertex_colors(value: Any, count: int) -> NDArray[np.uint8]:
+    """Return the colors of `count` vertices as :func:`parse_colors` does, also from an array (N, 2, 3) for lines."""
     if value is None:
-        return colors_of(None, count)
+        return parse_colors(None, count)
     colors = _bytes(value, "colors")
     if colors.ndim == 3 and colors.shape[1] == 2:
         colors = colors.reshape(-1, colors.shape[2])
-    return colors_of(colors, count)
+    return parse_colors(colors, count)
 
 
-def pixels_of(value: Any, argument: str = "image") -> NDArray[np.uint8]:
+def parse_pixels(value: Any, argument: str = "image") -> NDArray[np.uint8]:
     """Return pixels, (height, width, 4), from an array (height, width) or (height, width, 1, 3 or 4)."""
     pixels = _bytes(value, argument)
     if pixels.ndim == 2:
@@ -88,7 +88,7 @@ def pixels_of(value: Any, argument: str = "image") -> NDArray[np.uint8]:
         raise SceneError(f"{argument}: {width} x {height} pixels exceed the maximum of {MAX_IMAGE_PIXELS}")
     if pixels.shape[2] == 1:
         pixels = np.repeat(pixels, 3, axis=2)
-    return _with_alpha(pixels)
+    return _add_alpha(pixels)
 
 
 def _bytes(value: Any, argument: str) -> NDArray[np.uint8]:
@@ -119,7 +119,7 @@ def _is_nearly_black(value: Any) -> bool:
     return any(value) and all(one in {0, 1} for one in value)
 
 
-def _with_alpha(colors: NDArray[np.uint8]) -> NDArray[np.uint8]:
+def _add_alpha(colors: NDArray[np.uint8]) -> NDArray[np.uint8]:
     if colors.shape[-1] == 4:
         return np.ascontiguousarray(colors)
     return np.concatenate([colors, np.full((*colors.shape[:-1], 1), 255, np.uint8)], axis=-1)

@@ -9,8 +9,8 @@ import numpy as np
 
 from coframe.viewer.protocol.client_messages import MAX_POINTS
 from coframe.viewer.protocol.encoding import encode_node
-from coframe.viewer.scripting._arguments import faces_of, vertices_of
-from coframe.viewer.scripting._colors import colors_of, flat_colors_of, pixels_of
+from coframe.viewer.scripting._arguments import parse_faces, parse_vertices
+from coframe.viewer.scripting._colors import parse_colors, parse_pixels, parse_vertex_colors
 from coframe.viewer.scripting.errors import SceneError
 
 if TYPE_CHECKING:
@@ -70,33 +70,33 @@ _NO_VERTICES, _NO_INDICES = np.empty((0, 3), np.float32), np.empty(0, np.uint32)
 
 def points_geometry(points: Any, colors: Any) -> Geometry:
     """Return points, (N, 3), with a color each, or None."""
-    positions = vertices_of(points, "points", [(None, 3)])
+    positions = parse_vertices(points, "points", [(None, 3)])
     _check_count(len(positions), "points", "points")
-    return _geometry(positions, _NO_INDICES, colors_of(colors, len(positions)))
+    return _geometry(positions, _NO_INDICES, parse_colors(colors, len(positions)))
 
 
 def lines_geometry(points: Any, colors: Any) -> Geometry:
     """Return separate lines, (N, 2, 3), or one line through points, (N, 3), with a color for each point, or None."""
-    positions = vertices_of(points, "points", [(None, 3), (None, 2, 3)])
+    positions = parse_vertices(points, "points", [(None, 3), (None, 2, 3)])
     _check_count(positions.size // 3, "points", "points")
     strip = positions.ndim == 2
     flat = positions.reshape(-1, 3)
-    own = flat_colors_of(colors, len(flat))
+    own = parse_vertex_colors(colors, len(flat))
     return _geometry(_pairs(flat), _NO_INDICES, _pairs(own)) if strip else _geometry(flat, _NO_INDICES, own)
 
 
 def mesh_geometry(vertices: Any, faces: Any, colors: Any) -> Geometry:
     """Return triangles from vertices, (V, 3), and their indices, (F, 3), with a color for each vertex, or None."""
-    positions = vertices_of(vertices, "vertices", [(None, 3)])
+    positions = parse_vertices(vertices, "vertices", [(None, 3)])
     _check_count(len(positions), "vertices", "vertices")
-    triangles = faces_of(faces, "faces", len(positions))
+    triangles = parse_faces(faces, "faces", len(positions))
     _check_count(len(triangles), "faces", "triangles")
-    return _geometry(positions, triangles.reshape(-1), colors_of(colors, len(positions), each="vertex"))
+    return _geometry(positions, triangles.reshape(-1), parse_colors(colors, len(positions), each="vertex"))
 
 
 def image_geometry(image: Any) -> Geometry:
     """Return the pixels of an image, row by row from the top."""
-    pixels = pixels_of(image)
+    pixels = parse_pixels(image)
     return Geometry(_NO_VERTICES, _NO_INDICES, pixels.reshape(-1, 4), pixels.shape[1])
 
 

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 __all__ = ["GuiApi"]
 
 N = TypeVar("N", int, float)
-_LIMIT = 1e12
+_MAX_NUMBER = 1e12
 
 
 class GuiApi:
@@ -97,8 +97,8 @@ class GuiApi:
             disabled: Whether it is grayed out and cannot be moved.
             visible: Whether it is shown.
         """
-        low = _arguments.number_of(min, "min", -_LIMIT, _LIMIT)
-        high = _arguments.number_of(max, "max", -_LIMIT, _LIMIT)
+        low = _arguments.number_of(min, "min", -_MAX_NUMBER, _MAX_NUMBER)
+        high = _arguments.number_of(max, "max", -_MAX_NUMBER, _MAX_NUMBER)
         if high <= low:
             raise SceneError(f"max: expected a number above min, {low:g}, not {high:g}")
         return self._add_number("slider", label, initial_value, low, high, step, (min, max), hint, disabled, visible)
@@ -127,8 +127,8 @@ class GuiApi:
             disabled: Whether it is grayed out and cannot be changed.
             visible: Whether it is shown.
         """
-        low = None if min is None else _arguments.number_of(min, "min", -_LIMIT, _LIMIT)
-        high = None if max is None else _arguments.number_of(max, "max", -_LIMIT, _LIMIT)
+        low = None if min is None else _arguments.number_of(min, "min", -_MAX_NUMBER, _MAX_NUMBER)
+        high = None if max is None else _arguments.number_of(max, "max", -_MAX_NUMBER, _MAX_NUMBER)
         if low is not None and high is not None and high < low:
             raise SceneError(f"max: expected a number of at least min, {low:g}, not {high:g}")
         return self._add_number("number", label, initial_value, low, high, step, (min, max), hint, disabled, visible)
@@ -178,7 +178,7 @@ class GuiApi:
             disabled: Whether it is grayed out and cannot be changed, for example to show a result.
             visible: Whether it is shown.
         """
-        value = _arguments.text_of(initial_value, "initial_value")
+        value = _arguments.parse_text(initial_value, "initial_value")
         return TextFieldHandle(self._store, self._add("text", label, hint, disabled, visible, value=value))
 
     def add_checkbox(
@@ -199,7 +199,7 @@ class GuiApi:
             disabled: Whether it is grayed out and cannot be changed.
             visible: Whether it is shown.
         """
-        value = _arguments.flag_of(initial_value, "initial_value")
+        value = _arguments.parse_flag(initial_value, "initial_value")
         return CheckboxHandle(self._store, self._add("checkbox", label, hint, disabled, visible, value=value))
 
     def add_folder(self, label: str, *, expand: bool = True, visible: bool = True) -> FolderHandle:
@@ -210,7 +210,7 @@ class GuiApi:
             expand: Whether it is open at first.
             visible: Whether it is shown.
         """
-        value = _arguments.flag_of(expand, "expand")
+        value = _arguments.parse_flag(expand, "expand")
         return FolderHandle(
             self._store, self._add("folder", label, "", False, visible, value=value), self._open_folders
         )
@@ -232,7 +232,7 @@ class GuiApi:
         disabled: bool,
         visible: bool,
     ) -> NumberHandle[Any]:
-        first = _arguments.number_of(initial, "initial_value", -_LIMIT, _LIMIT)
+        first = _arguments.number_of(initial, "initial_value", -_MAX_NUMBER, _MAX_NUMBER)
         is_whole = all(isinstance(one, int) for one in (initial, *limits, step) if one is not None)
         size = 1.0 if step is None and is_whole else None if step is None else _arguments.number_of(step, "step", 1e-12)
         if (low is not None and first < low) or (high is not None and first > high):
@@ -248,11 +248,11 @@ class GuiApi:
             id=self._store.next_id(),
             version=0,
             kind=kind,
-            label=_arguments.text_of(label, "label", _arguments.MAX_NAME),
+            label=_arguments.parse_text(label, "label", _arguments.MAX_NAME),
             parent=folders[-1] if folders else None,
-            hint=_arguments.text_of(hint, "hint"),
-            disabled=_arguments.flag_of(disabled, "disabled"),
-            visible=_arguments.flag_of(visible, "visible"),
+            hint=_arguments.parse_text(hint, "hint"),
+            disabled=_arguments.parse_flag(disabled, "disabled"),
+            visible=_arguments.parse_flag(visible, "visible"),
             **fields,
         )
         return self._store.add(record).id

@@ -10,7 +10,7 @@ import numpy as np
 
 from coframe.transform.transform import Transform
 from coframe.viewer.scripting import _arguments
-from coframe.viewer.scripting._colors import color_of, flat_colors_of
+from coframe.viewer.scripting._colors import parse_color, parse_vertex_colors
 from coframe.viewer.scripting._geometry import (
     Geometry,
     image_geometry,
@@ -39,7 +39,7 @@ __all__ = [
     "TextHandle",
 ]
 
-C = TypeVar("C", bound="Callable[[ClickEvent], object]")
+CallbackT = TypeVar("CallbackT", bound="Callable[[ClickEvent], object]")
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +108,7 @@ class NodeHandle:
 
     @position.setter
     def position(self, value: ArrayLike) -> None:
-        position = _arguments.vector_of(value, "position")
+        position = _arguments.parse_vector(value, "position")
         with self._store.lock:
             self._update(pose=(*position, *self._record.pose[3:]))
 
@@ -119,7 +119,7 @@ class NodeHandle:
 
     @quaternion.setter
     def quaternion(self, value: ArrayLike) -> None:
-        quaternion = _arguments.quaternion_of(value)
+        quaternion = _arguments.parse_quaternion(value)
         with self._store.lock:
             self._update(pose=(*self._record.pose[:3], *quaternion))
 
@@ -130,14 +130,14 @@ class NodeHandle:
 
     @visible.setter
     def visible(self, value: bool) -> None:
-        self._update(visible=_arguments.flag_of(value, "visible"))
+        self._update(visible=_arguments.parse_flag(value, "visible"))
 
     @property
     def is_removed(self) -> bool:
         """Whether the node was removed, or replaced by another one with its name."""
         return self._store.get(self._number) is None
 
-    def on_click(self, callback: C) -> C:
+    def on_click(self, callback: CallbackT) -> CallbackT:
         """Call a function with a :class:`ClickEvent` for each click on this node; usable as a decorator.
 
         Callbacks of one viewer run in a dedicated thread, one after another. Exceptions are logged.
@@ -201,7 +201,7 @@ class _ColoredHandle(NodeHandle):
 
     @color.setter
     def color(self, value: ArrayLike | str | None) -> None:
-        self._update(color=color_of(value))
+        self._update(color=parse_color(value))
 
     @property
     def opacity(self) -> float:
@@ -224,9 +224,9 @@ class _VertexColoredHandle(_ColoredHandle):
     def colors(self, value: ArrayLike | None) -> None:
         with self._store.lock:
             geometry = self._geometry
-            self._update(geometry=geometry._replace(colors=flat_colors_of(value, len(geometry.vertices))))
+            self._update(geometry=geometry._replace(colors=parse_vertex_colors(value, len(geometry.vertices))))
 
-    def _kept_colors(self, geometry: Geometry) -> Geometry:
+    def _keep_colors(self, geometry: Geometry) -> Geometry:
         """Return a geometry of new points with the colors of the present ones, whose number must be the same."""
         colors = self._geometry.colors
         if len(colors) and len(colors) != len(geometry.vertices):
@@ -249,7 +249,7 @@ class PointsHandle(_VertexColoredHandle):
     def points(self, value: ArrayLike) -> None:
         geometry = points_geometry(value, None)
         with self._store.lock:
-            self._update(geometry=self._kept_colors(geometry))
+            self._update(geometry=self._keep_colors(geometry))
 
     def update(self, points: ArrayLike, colors: ArrayLike | None = None) -> None:
         """Replace the points, (N, 3), and their colors, (N, 3); None draws them in one color.
@@ -281,7 +281,7 @@ class LinesHandle(_VertexColoredHandle):
     def points(self, value: ArrayLike) -> None:
         geometry = lines_geometry(value, None)
         with self._store.lock:
-            self._update(geometry=self._kept_colors(geometry))
+            self._update(geometry=self._keep_colors(geometry))
 
     def update(self, points: ArrayLike, colors: ArrayLike | None = None) -> None:
         """Replace the points, (N, 2, 3) or (N, 3) for one line through all, and their colors, or None.
@@ -330,7 +330,7 @@ class MeshHandle(_VertexColoredHandle):
 
     @wireframe.setter
     def wireframe(self, value: bool) -> None:
-        self._update(wireframe=_arguments.flag_of(value, "wireframe"))
+        self._update(wireframe=_arguments.parse_flag(value, "wireframe"))
 
 
 class TextHandle(_ColoredHandle):
@@ -343,7 +343,7 @@ class TextHandle(_ColoredHandle):
 
     @text.setter
     def text(self, value: str) -> None:
-        self._update(text=_arguments.text_of(value, "text"))
+        self._update(text=_arguments.parse_text(value, "text"))
 
     @property
     def height(self) -> float:

@@ -95,7 +95,7 @@ class NodeStore(RecordStore[NodeRecord]):
             SceneError: There are too many nodes, or too many bytes.
         """
         with self.lock:
-            replaced = self._replaced_by(record)
+            replaced = self._replaced_nodes(record)
             if len(self) - len(replaced) >= MAX_NODES:
                 raise SceneError(f"name: the scene has the maximum of {MAX_NODES} nodes", hint="Remove other nodes.")
             freed = sum(_size(one.geometry) for one in replaced)
@@ -172,7 +172,7 @@ class NodeStore(RecordStore[NodeRecord]):
         for callback in callbacks:
             self._callbacks.submit(partial(callback, click))
 
-    def _replaced_by(self, record: NodeRecord) -> list[NodeRecord]:
+    def _replaced_nodes(self, record: NodeRecord) -> list[NodeRecord]:
         """Return the nodes that another one with their name replaces: all of them, or those with its time or none."""
         ids = self._ids_by_name.get(record.name, {})
         replaced = [number for time, number in ids.items() if record.time is None or time in {None, record.time}]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from coframe._output.formatting import did_you_mean, join_quoted
 from coframe.time import stamp_ns
 from coframe.viewer.scripting import _arguments
-from coframe.viewer.scripting._colors import color_of
+from coframe.viewer.scripting._colors import parse_color
 from coframe.viewer.scripting._geometry import (
     box_mesh,
     image_geometry,
@@ -54,7 +54,7 @@ if TYPE_CHECKING:
 
 __all__ = ["SceneApi"]
 
-H = TypeVar("H", bound=NodeHandle)
+HandleT = TypeVar("HandleT", bound=NodeHandle)
 
 _PLACEMENT = ("frame", "pose", "position", "quaternion", "visible", "time")
 _POINT_SIZE, _LINE_WIDTH, _AXES_LENGTH, _TEXT_HEIGHT, _IMAGE_WIDTH = 0.02, 2.0, 0.5, 0.15, 1.0
@@ -153,7 +153,7 @@ class SceneApi:
             name,
             placement,
             geometry=points_geometry(points, colors),
-            color=color_of(color),
+            color=parse_color(color),
             size=_arguments.number_of(point_size, "point_size", 0.0, _arguments.MAX_COORDINATE),
             opacity=_arguments.number_of(opacity, "opacity", 0.0, 1.0),
         )
@@ -189,7 +189,7 @@ class SceneApi:
             name,
             placement,
             geometry=lines_geometry(points, colors),
-            color=color_of(color),
+            color=parse_color(color),
             size=_arguments.number_of(line_width, "line_width", 0.1, 100.0),
             opacity=_arguments.number_of(opacity, "opacity", 0.0, 1.0),
         )
@@ -232,9 +232,9 @@ class SceneApi:
             name,
             placement,
             geometry=mesh_geometry(vertices, faces, colors),
-            color=color_of(color),
+            color=parse_color(color),
             opacity=_arguments.number_of(opacity, "opacity", 0.0, 1.0),
-            wireframe=_arguments.flag_of(wireframe, "wireframe"),
+            wireframe=_arguments.parse_flag(wireframe, "wireframe"),
         )
 
     def add_box(
@@ -258,7 +258,7 @@ class SceneApi:
         Raises:
             SceneError: An argument is invalid.
         """
-        vertices, faces = box_mesh(_arguments.vector_of(size, "size"))
+        vertices, faces = box_mesh(_arguments.parse_vector(size, "size"))
         return self.add_mesh(name, vertices, faces, color=color, opacity=opacity, **placement)
 
     def add_sphere(
@@ -283,7 +283,7 @@ class SceneApi:
         Raises:
             SceneError: An argument is invalid.
         """
-        vertices, faces = sphere_mesh(_arguments.radii_of(radius))
+        vertices, faces = sphere_mesh(_arguments.parse_radii(radius))
         return self.add_mesh(name, vertices, faces, color=color, opacity=opacity, **placement)
 
     def add_text(
@@ -314,8 +314,8 @@ class SceneApi:
             "text",
             name,
             placement,
-            text=_arguments.text_of(text, "text"),
-            color=color_of(color),
+            text=_arguments.parse_text(text, "text"),
+            color=parse_color(color),
             size=_arguments.number_of(height, "height", 0.0, _arguments.MAX_COORDINATE),
             opacity=_arguments.number_of(opacity, "opacity", 0.0, 1.0),
         )
@@ -360,13 +360,15 @@ class SceneApi:
         Raises:
             SceneError: There is no such node.
         """
-        self._store.remove_name(_arguments.name_of(name))
+        self._store.remove_name(_arguments.parse_name(name))
 
     def reset(self) -> None:
         """Remove all nodes."""
         self._store.reset()
 
-    def _add(self, make_handle: type[H], kind: NodeKind, name: str, placement: Placement, **fields: Any) -> H:
+    def _add(
+        self, make_handle: type[HandleT], kind: NodeKind, name: str, placement: Placement, **fields: Any
+    ) -> HandleT:
         for key in placement:
             if key not in _PLACEMENT:
                 raise TypeError(
@@ -376,12 +378,12 @@ class SceneApi:
         record = NodeRecord(
             id=self._store.next_id(),
             version=0,
-            name=_arguments.name_of(name),
+            name=_arguments.parse_name(name),
             kind=kind,
             frame=self._frame(placement),
             pose=_pose(placement),
             time=None if time is None else _stamp(time),
-            visible=_arguments.flag_of(placement.get("visible", True), "visible"),
+            visible=_arguments.parse_flag(placement.get("visible", True), "visible"),
             **fields,
         )
         return make_handle(self._store, self._store.add(record).id, self._check_frame)
@@ -395,7 +397,7 @@ class SceneApi:
         return None if chosen is None else self._check_frame(chosen)
 
     def _check_frame(self, frame: Any) -> str:
-        name = _arguments.text_of(frame, "frame").removeprefix("/")
+        name = _arguments.parse_text(frame, "frame").removeprefix("/")
         buffer = self._complete_buffer()
         if name and buffer is not None and name not in buffer:
             known = sorted(buffer.frame_names())
@@ -407,8 +409,8 @@ class SceneApi:
 def _pose(placement: Placement) -> Pose:
     pose, position, quaternion = placement.get("pose"), placement.get("position"), placement.get("quaternion")
     if pose is None:
-        x, y, z = IDENTITY[:3] if position is None else _arguments.vector_of(position, "position")
-        return x, y, z, *(IDENTITY[3:] if quaternion is None else _arguments.quaternion_of(quaternion))
+        x, y, z = IDENTITY[:3] if position is None else _arguments.parse_vector(position, "position")
+        return x, y, z, *(IDENTITY[3:] if quaternion is None else _arguments.parse_quaternion(quaternion))
     if position is not None or quaternion is not None:
         raise SceneError("pose: pass either pose, or position and quaternion")
     return _arguments.pose_of(pose)

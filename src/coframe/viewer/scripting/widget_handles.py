@@ -67,7 +67,7 @@ class WidgetHandle:
 
     @label.setter
     def label(self, value: str) -> None:
-        self._store.update(self._number, label=_arguments.text_of(value, "label", _arguments.MAX_NAME))
+        self._store.update(self._number, label=_arguments.parse_text(value, "label", _arguments.MAX_NAME))
 
     @property
     def disabled(self) -> bool:
@@ -76,7 +76,7 @@ class WidgetHandle:
 
     @disabled.setter
     def disabled(self, value: bool) -> None:
-        self._store.update(self._number, disabled=_arguments.flag_of(value, "disabled"))
+        self._store.update(self._number, disabled=_arguments.parse_flag(value, "disabled"))
 
     @property
     def visible(self) -> bool:
@@ -85,7 +85,7 @@ class WidgetHandle:
 
     @visible.setter
     def visible(self, value: bool) -> None:
-        self._store.update(self._number, visible=_arguments.flag_of(value, "visible"))
+        self._store.update(self._number, visible=_arguments.parse_flag(value, "visible"))
 
     @property
     def is_removed(self) -> bool:
@@ -195,7 +195,7 @@ class TextFieldHandle(_ValueHandle):
 
     @value.setter
     def value(self, value: str) -> None:
-        self._store.update(self._number, value=_arguments.text_of(value, "value"))
+        self._store.update(self._number, value=_arguments.parse_text(value, "value"))
 
 
 class CheckboxHandle(_ValueHandle):
@@ -208,7 +208,7 @@ class CheckboxHandle(_ValueHandle):
 
     @value.setter
     def value(self, value: bool) -> None:
-        self._store.update(self._number, value=_arguments.flag_of(value, "value"))
+        self._store.update(self._number, value=_arguments.parse_flag(value, "value"))
 
 
 class FolderHandle(WidgetHandle):
@@ -245,7 +245,7 @@ def checked_options(options: Any) -> tuple[str, ...]:
     """Return the options of a drop-down."""
     if isinstance(options, str) or not hasattr(options, "__iter__"):
         raise SceneError(f"options: expected a list of strings, not {options!r}")
-    new = tuple(_arguments.text_of(one, "options", _arguments.MAX_NAME) for one in options)
+    new = tuple(_arguments.parse_text(one, "options", _arguments.MAX_NAME) for one in options)
     if not new:
         raise SceneError("options: a drop-down needs at least one option")
     if len(new) > MAX_OPTIONS:

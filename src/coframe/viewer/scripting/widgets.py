@@ -91,7 +91,7 @@ class WidgetStore(RecordStore[WidgetRecord]):
     def __init__(self, callbacks: CallbackThread) -> None:
         super().__init__()
         self._callbacks = callbacks
-        self._used: defaultdict[int, list[Callable[[], object]]] = defaultdict(list)
+        self._callbacks_by_widget: defaultdict[int, list[Callable[[], object]]] = defaultdict(list)
 
     def add(self, record: WidgetRecord) -> WidgetRecord:
         """Add a widget.
@@ -121,13 +121,13 @@ class WidgetStore(RecordStore[WidgetRecord]):
             for record in self.all():
                 if record.parent == number:
                     self.remove(record.id)
-            self._used.pop(number, None)
+            self._callbacks_by_widget.pop(number, None)
             self.drop([number])
 
     def reset(self) -> None:
         """Remove all widgets."""
         with self.lock:
-            self._used.clear()
+            self._callbacks_by_widget.clear()
             self.drop(record.id for record in self.all())
 
     def on_use(self, number: int, callback: Callable[[], object]) -> None:
@@ -139,7 +139,7 @@ class WidgetStore(RecordStore[WidgetRecord]):
         with self.lock:
             if self.get(number) is None:
                 raise SceneError("this widget was removed")
-            self._used[number].append(callback)
+            self._callbacks_by_widget[number].append(callback)
 
     def used(self, use: UseWidget) -> str:
         """Apply a user's input and run the callbacks, and return why it is not valid, or ""."""
@@ -154,7 +154,7 @@ class WidgetStore(RecordStore[WidgetRecord]):
                 return f"{record.label!r} is disabled"
             if value is None and record.kind != "button":
                 return f"{record.label!r} cannot have this value"
-            callbacks = list(self._used.get(record.id, ()))
+            callbacks = list(self._callbacks_by_widget.get(record.id, ()))
         for index, callback in enumerate(callbacks):
             # Only the newest value of a slider matters, but each press of a button.
             subject = None if record.kind == "button" else (record.id, index)

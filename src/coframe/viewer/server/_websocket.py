@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     Answer: TypeAlias = Callable[[Request], Awaitable[Response | None]]
     MakeListener: TypeAlias = "Callable[[WebSocket], Listener]"
-    _Part: TypeAlias = tuple[int, bytes | bytearray | memoryview, bool]
+    _MessagePart: TypeAlias = tuple[int, bytes | bytearray | memoryview, bool]
 
 __all__ = ["MAX_REQUEST_BYTES", "Listener", "WebSocket"]
 
@@ -75,11 +75,11 @@ class WebSocket(asyncio.Protocol):
         self._unwritten = 0  # Bytes that the operating system had not accepted at the last check.
         self._message = bytearray()  # The parts of an incomplete message.
         self._is_text = True
-        self._unsent: deque[_Part] = deque()
+        self._unsent: deque[_MessagePart] = deque()
         self._clear = asyncio.Event()
         self._clear.set()
-        self._accepts_more = True
-        self._pauses: set[str] = set()  # The reasons why reading is paused.
+        self._is_writable = True
+        self._pause_reasons: set[str] = set()  # The reasons why reading is paused.
 
     @property
     def has_ended(self) -> bool:
@@ -89,7 +89,7 @@ class WebSocket(asyncio.Protocol):
     @property
     def is_clear(self) -> bool:
         """Whether the operating system has accepted nearly everything that was sent."""
-        return self._accepts_more and not self._unsent
+        return self._is_writable and not self._unsent
 
     async def cleared(self) -> None:
         """Wait until the connection is clear or has ended."""
@@ -173,13 +173,13 @@ class WebSocket(asyncio.Protocol):
 
     def pause_writing(self) -> None:
         """Stop sending. See asyncio.Protocol."""
-        self._accepts_more = False
+        self._is_writable = False
         self._clear.clear()
         self._pause("unwritten")  # A client that only sends pings would fill the memory with pongs.
 
     def resume_writing(self) -> None:
         """Send again. See asyncio.Protocol."""
-        self._accepts_more = self._is_alive = True
+        self._is_writable = self._is_alive = True
         self._resume("unwritten")
         self._send_unsent()
         if self.is_clear:
@@ -219,19 +219,19 @@ class WebSocket(asyncio.Protocol):
             self._protocol.fail(1007, "not UTF-8")
 
     def _send_unsent(self) -> None:
-        while self._unsent and self._accepts_more:
+        while self._unsent and self._is_writable:
             frame = _frame(*self._unsent.popleft())
             if self._transport is not None and self._protocol.state is OPEN:
                 self._transport.write(frame)
 
     def _pause(self, reason: str) -> None:
-        self._pauses.add(reason)
+        self._pause_reasons.add(reason)
         if self._transport is not None:
             self._transport.pause_reading()
 
     def _resume(self, reason: str) -> None:
-        self._pauses.discard(reason)
-        if self._transport is not None and not self._pauses:
+        self._pause_reasons.discard(reason)
+        if self._transport is not None and not self._pause_reasons:
             self._transport.resume_reading()
 
     def _flush(self) -> None:
@@ -263,7 +263,7 @@ class WebSocket(asyncio.Protocol):
         self._start_idle_timer()
 
 
-def _parts(opcode: int, data: memoryview) -> Iterator[_Part]:
+def _parts(opcode: int, data: memoryview) -> Iterator[_MessagePart]:
     """Yield the parts of a long message."""
     for start in range(0, len(data), _PART):
         yield opcode if start == 0 else Opcode.CONT, data[start : start + _PART], start + _PART >= len(data)

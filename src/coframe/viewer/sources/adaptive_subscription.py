@@ -45,7 +45,7 @@ class AdaptiveSubscription:
         self._offers = offers
         self._subscribe = subscribe
         self._open: dict[bool, Subscription] = {}  # Keyed by whether it requests earlier messages.
-        self._left: list[Sample] = []  # Samples of a replaced subscription.
+        self._remaining_samples: list[Sample] = []  # Samples of a replaced subscription.
         self._lock = threading.Lock()
         self._closed = False
         self._follow()
@@ -59,12 +59,14 @@ class AdaptiveSubscription:
 
     def pending(self) -> bool:
         """Return whether messages may be waiting; may be True although `take` returns none."""
-        return bool(self._left) or any(subscription.pending() for subscription in list(self._open.values()))
+        return bool(self._remaining_samples) or any(
+            subscription.pending() for subscription in list(self._open.values())
+        )
 
     def take(self) -> list[Sample]:
         """Return the waiting messages. The messages of each publisher are in order."""
         with self._lock:
-            left, self._left = self._left, []
+            left, self._remaining_samples = self._remaining_samples, []
             return [*left, *self._take(transient_local=True), *self._take(transient_local=False)]
 
     def close(self) -> None:
@@ -88,7 +90,7 @@ class AdaptiveSubscription:
         if previous is not None and (request.reliable or not previous.qos.reliable):
             return  # All publishers offer what the existing subscription requests.
         if previous is not None:
-            self._left += self._take(transient_local=request.transient_local)
+            self._remaining_samples += self._take(transient_local=request.transient_local)
         self._open[request.transient_local] = self._subscribe(request)
         if previous is not None:
             previous.close()

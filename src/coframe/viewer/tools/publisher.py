@@ -124,7 +124,7 @@ class ToolPublisher:
             raise ViewerError(f"the quaternion has the norm {norm:.4g}, but must have 1")
         with self._lock:
             message = self._message("geometry_msgs/msg/TransformStamped", parent)
-            message.child_frame_id = self._name_on_graph(child)
+            message.child_frame_id = self._graph_frame_name(child)
             target, rotation = message.transform.translation, message.transform.rotation
             target.x, target.y, target.z = translation
             rotation.x, rotation.y, rotation.z, rotation.w = (part / norm for part in quaternion)
@@ -150,11 +150,11 @@ class ToolPublisher:
         from coframe.messages import find  # noqa: PLC0415
 
         message: Any = find(ros_type)()
-        message.header.frame_id = self._name_on_graph(frame)
+        message.header.frame_id = self._graph_frame_name(frame)
         message.header.stamp.sec, message.header.stamp.nanosec = divmod(self._clock.now(), SECOND)
         return message
 
-    def _name_on_graph(self, frame: str) -> str:
+    def _graph_frame_name(self, frame: str) -> str:
         """Return the name of a frame on the graph, without the prefix used in the buffer."""
         return frame.removeprefix(self._connection.config.prefix)
 
