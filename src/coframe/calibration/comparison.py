@@ -53,7 +53,7 @@ class Tolerance(NamedTuple):
 
     @classmethod
     def parse(cls, text: str) -> Tolerance:
-        """Return the tolerance in a text such as ``5mm,0.2deg``; what is not given keeps its default.
+        """Return the tolerance from a string such as ``5mm,0.2deg``. A missing part keeps its default.
 
         Raises:
             ValueError: A part is not a positive number with a unit: mm, cm, m, deg, rad, px, us, ms or s.

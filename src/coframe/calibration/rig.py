@@ -18,7 +18,7 @@ __all__ = ["Rig"]
 
 @dataclass(frozen=True, eq=False)
 class Rig:
-    """A calibration, with the conventions of ROS whatever the file had.
+    """A calibration in the conventions of ROS, regardless of the format of the file.
 
     Attributes:
         transforms: The mounts: the pose of the ``source`` (child) in the ``target`` (parent) of each, in meters.
