@@ -189,7 +189,7 @@ def rotation_text(turn: Array) -> str:
     """Return a rotation (4,) as roll, pitch and yaw in degrees.
 
     Example:
-        >>> rotation_text(OPTICAL)
+        >>> rotation_text(OPTICAL_ROTATION)
         'roll -90, pitch 0, yaw -90 degrees'
     """
     angles = [f"{value + 0.0:.6g}" for value in np.round(np.degrees(quaternion.to_rpy(turn)), 2).tolist()]
