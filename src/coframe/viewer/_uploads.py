@@ -168,7 +168,7 @@ class Uploads:
 
 
 def safe_name(name: str) -> str:
-    """Return a name of a file that is inside its folder, whatever the browser sends."""
+    """Return a name of a file that is inside its folder, regardless of what the browser sends."""
     cleaned = _UNSAFE.sub("_", name.replace("\\", "/").rpartition("/")[2])[-_MAX_NAME:].lstrip(".")
     return cleaned or "file"
 

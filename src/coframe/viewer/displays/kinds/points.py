@@ -62,7 +62,7 @@ def draw_scan(scan: Any, options: Options) -> Drawing:
 def draw_cloud(cloud: Any, options: Options) -> Drawing:
     """Draw a PointCloud2, thinned to the number of points that the page can draw, without non-finite points."""
     try:
-        count = int(np.prod(grid_of(cloud)))
+        count = int(np.prod(grid_shape(cloud)))
         _check_count(count)
         step = max(1, -(-count // options.max_points))
         points, offset = _positions(cloud, step)
