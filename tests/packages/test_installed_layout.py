@@ -241,3 +241,61 @@ def test_many_rules_for_a_folder_that_the_sources_have_too(package):
     )
     assert (share / "meshes/7").resolve().parent.name == "data"
     assert time.monotonic() - started < 10.0
+
+
+def test_loops_and_lists_of_cmake(package):
+    share = package(
+        "arm_twelve",
+        {
+            "CMakeLists.txt": "set(folders urdf)\nlist(APPEND folders meshes)\n"
+            "foreach(folder ${folders})\n"
+            "  install(DIRECTORY src/${folder}/ DESTINATION share/arm_twelve/${folder})\nendforeach()\n"
+            "foreach(side IN LISTS sides ITEMS left right)\n  foreach(kind a b)\n"
+            "    install(FILES ${kind}.yaml DESTINATION share/arm_twelve/config/${side})\n"
+            "  endforeach()\nendforeach(side)\n"
+            "install(FILES ${side}.yaml DESTINATION share/arm_twelve/config)\n",
+            **{name: name for name in ("src/urdf/arm.urdf", "src/meshes/arm.stl", "a.yaml", "b.yaml")},
+        },
+    )
+    assert (share / "urdf/arm.urdf").read_text() == "src/urdf/arm.urdf"
+    assert (share / "meshes/arm.stl").is_file()
+    assert [each.name for each in sorted((share / "config").iterdir())] == ["left", "right"]
+    assert [each.name for each in sorted((share / "config/right").iterdir())] == ["a.yaml", "b.yaml"]
+
+
+def test_loops_of_cmake_have_limits(package):
+    started = time.monotonic()
+    nested = "foreach(a 1 2 3 4 5 6 7 8 9)\n" * 5000
+    share = package("arm_thirteen", {"CMakeLists.txt": nested + "install(FILES here DESTINATION share/x)", "here": "1"})
+    assert (share / "here").read_text() == "1"
+    assert time.monotonic() - started < 10.0
+
+
+def test_the_layout_of_packages_for_navigation_and_control(package):
+    """The sources and installations of nav2_bringup and ros2_control_demos are laid out like this."""
+    share = package(
+        "demo_example_1",
+        {
+            "CMakeLists.txt": "project(demo_example_1)\nfind_package(ament_cmake REQUIRED)\n"
+            "add_library(demo_example_1 SHARED hardware/rrbot.cpp)\n"
+            "install(DIRECTORY hardware/include/ DESTINATION include/demo_example_1)\n"
+            "install(DIRECTORY description/launch description/ros2_control description/urdf\n"
+            "  DESTINATION share/demo_example_1)\n"
+            "install(DIRECTORY bringup/launch bringup/config DESTINATION share/${PROJECT_NAME})\n"
+            "install(TARGETS demo_example_1 EXPORT export RUNTIME DESTINATION bin)\n"
+            "if(BUILD_TESTING)\n  find_package(ament_lint_auto REQUIRED)\nendif()\nament_package()\n",
+            "bringup/launch/rrbot.launch.py": "bringup",
+            "bringup/config/controllers.yaml": "c",
+            "bringup/launch/parts/a.launch.py": "bringup",
+            "description/launch/view.launch.py": "description",
+            "description/launch/parts/b.launch.py": "description",
+            "description/urdf/rrbot.urdf.xacro": "<robot/>",
+            "description/ros2_control/rrbot.xacro": "<robot/>",
+            "hardware/rrbot.cpp": "",
+        },
+    )
+    assert (share / "urdf/rrbot.urdf.xacro").read_text() == "<robot/>"
+    assert (share / "ros2_control/rrbot.xacro").is_file()
+    assert sorted(each.name for each in (share / "launch").iterdir()) == ["parts", "rrbot.launch.py", "view.launch.py"]
+    assert sorted(each.name for each in (share / "launch/parts").iterdir()) == ["a.launch.py", "b.launch.py"]
+    assert (share / "config/controllers.yaml").read_text() == "c"

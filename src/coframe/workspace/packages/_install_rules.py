@@ -7,11 +7,13 @@ The files are read as text and never executed.
 from __future__ import annotations
 
 import ast
+import os
 import re
 from fnmatch import fnmatchcase
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
 
+from coframe._files.existence import is_dir
 from coframe._files.regular_files import read_regular_text
 from coframe.workspace.packages import _console_scripts
 from coframe.workspace.packages._console_scripts import short
@@ -21,7 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = ["contents", "installed_files"]
 
-_CALL = re.compile(r"\b(set|file|install)\s*\(([^()]*)\)", re.IGNORECASE)
+_CALL = re.compile(r"\b(set|list|file|install|foreach|endforeach)\s*\(([^()]*)\)", re.IGNORECASE)
 _PROJECT = re.compile(r"\bproject\s*\(\s*([\w.\-]{1,255})(?![\w.\-])", re.IGNORECASE)
 _VARIABLE = re.compile(r"\$\{(\w+)\}")
 _WORD = re.compile(r'"([^"]*)"|([^\s"]+)')
@@ -39,7 +41,9 @@ _KEYWORDS = {
     "TYPE",
 }
 _MAX_RULES = 10_000
+_MAX_CALLS = 10_000  # commands of a CMakeLists.txt; those in loops count each time
 _MAX_DEPTH = 50  # folders of a destination
+_MAX_LOOPS = 20  # inside each other
 _MAX_SEARCHED = 50_000  # files and folders for all patterns of a package
 
 
@@ -53,9 +57,24 @@ def installed_files(package: Path, name: str) -> dict[str, Path]:
     rules: dict[str, Path] = {}
     for destination, source in [*_of_cmake(package, name), *_of_setup(package, name)]:
         relative = _below_share(destination, name)
-        if relative is not None and len(rules) < _MAX_RULES and _is_inside(source, package):
-            rules.setdefault(relative, source)
+        if relative is not None and _is_inside(source, package):
+            _add(rules, relative, source)
     return rules
+
+
+def _add(rules: dict[str, Path], relative: str, source: Path) -> None:
+    """Add a rule. As in CMake, folders that are installed to the same place are merged; the first file applies."""
+    if len(rules) >= _MAX_RULES:
+        return
+    first = rules.setdefault(relative, source)
+    if first == source or not (first.is_dir() and source.is_dir()) or relative.count("/") > _MAX_DEPTH:
+        return
+    for each in contents(source):
+        path = f"{relative}/{each.name}"
+        if is_dir(first / each.name):
+            rules.setdefault(path, first / each.name)
+        if path in rules or not os.path.lexists(first / each.name):
+            _add(rules, path, each)
 
 
 def _below_share(destination: str, name: str) -> str | None:
@@ -100,21 +119,98 @@ def _of_cmake(package: Path, name: str) -> Iterator[tuple[str, Path]]:
         "CMAKE_INSTALL_DATADIR": "share",
         "CMAKE_INSTALL_DATAROOTDIR": "share",
     }
-    search = _Search(package)
-    length = 0
-    for call in _CALL.finditer(text):
-        length += sum(len(variables.get(each, "")) for each in _VARIABLE.findall(call[2]))
-        if length > _console_scripts.MAX_BYTES:  # A few lines can double a variable any number of times.
+    calls = [(call[1].lower(), call[2]) for call in _CALL.finditer(text)]
+    yield from _Commands(package, variables, calls).run(0, len(calls))
+
+
+class _Commands:
+    """Follows the commands of a CMakeLists.txt that define variables, repeat commands or install files.
+
+    Args:
+        package: The source folder.
+        variables: The variables that CMake defines.
+        calls: The commands with their arguments.
+    """
+
+    def __init__(self, package: Path, variables: dict[str, str], calls: Sequence[tuple[str, str]]) -> None:
+        self._package = package
+        self._variables = variables
+        self._calls = calls
+        self._ends = _ends_of_loops(calls)
+        self._search = _Search(package)
+        self._calls_left = _MAX_CALLS
+        self._loops = 0
+        self._bytes_left = _console_scripts.MAX_BYTES  # A few lines can double a variable any number of times.
+
+    def run(self, start: int, end: int) -> Iterator[tuple[str, Path]]:
+        """Yield the paths in the installation and their sources for the commands from `start` to before `end`."""
+        index = start
+        while index < end:
+            command, arguments = self._calls[index]
+            self._calls_left -= 1
+            self._bytes_left -= sum(len(self._variables.get(each, "")) for each in _VARIABLE.findall(arguments))
+            if self._calls_left < 0 or self._bytes_left < 0:
+                return
+            words = self._words(arguments)
+            if command == "foreach":
+                yield from self._repeat(words, index)
+                index = self._ends[index]
+            elif command == "install":
+                yield from _of_install(words, self._package)
+            else:
+                self._define(command, words)
+            index += 1
+
+    def _words(self, arguments: str) -> list[str]:
+        given = [_expand_variables(quoted or bare, self._variables) for quoted, bare in _WORD.findall(arguments)]
+        return [word for each in given for word in each.split(";") if word]
+
+    def _define(self, command: str, words: list[str]) -> None:
+        if command == "set" and words:
+            self._variables[words[0]] = ";".join(words[1:])
+        elif command == "list" and words[:1] == ["APPEND"] and len(words) > 2:
+            self._variables[words[1]] = ";".join(filter(None, [self._variables.get(words[1], ""), *words[2:]]))
+        elif command == "file" and words[:1] in (["GLOB"], ["GLOB_RECURSE"]) and len(words) > 2:
+            self._variables[words[1]] = _glob_files(words, self._search)
+
+    def _repeat(self, words: list[str], index: int) -> Iterator[tuple[str, Path]]:
+        """Run the loop ``foreach(NAME VALUE...)`` or ``foreach(NAME IN LISTS LIST... ITEMS VALUE...)`` at an index."""
+        if self._loops == _MAX_LOOPS or not words:
             return
-        given = [_expand_variables(quoted or bare, variables) for quoted, bare in _WORD.findall(call[2])]
-        words = [word for each in given for word in each.split(";") if word]
-        command = call[1].lower()
-        if command == "install":
-            yield from _of_install(words, package)
-        elif command == "set" and words:
-            variables[words[0]] = ";".join(words[1:])
-        elif words[:1] in (["GLOB"], ["GLOB_RECURSE"]) and len(words) > 2:
-            variables[words[1]] = _glob_files(words, search)
+        name, *values = words
+        before = self._variables.get(name)
+        self._loops += 1
+        for value in self._values(values[1:]) if values[:1] == ["IN"] else values:
+            self._variables[name] = value
+            yield from self.run(index + 1, self._ends[index])
+        self._loops -= 1
+        self._variables.pop(name, None)
+        if before is not None:
+            self._variables[name] = before
+
+    def _values(self, words: list[str]) -> list[str]:
+        values: list[str] = []
+        kind = ""
+        for word in words:
+            if word in {"LISTS", "ITEMS"}:
+                kind = word
+            elif kind == "ITEMS":
+                values.append(word)
+            else:
+                values += filter(None, self._variables.get(word, "").split(";"))
+        return values
+
+
+def _ends_of_loops(calls: Sequence[tuple[str, str]]) -> dict[int, int]:
+    """Return the index of the ``endforeach()`` of each loop by that of its ``foreach()``; the end if there is none."""
+    ends: dict[int, int] = {}
+    started: list[int] = []
+    for index, (command, _) in enumerate(calls):
+        if command == "foreach":
+            started.append(index)
+        elif command == "endforeach" and started:
+            ends[started.pop()] = index
+    return ends | dict.fromkeys(started, len(calls))
 
 
 def _expand_variables(word: str, variables: dict[str, str]) -> str:
