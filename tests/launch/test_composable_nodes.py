@@ -6,13 +6,14 @@ import sys
 
 import pytest
 
-from launch.actions import EmitEvent, GroupAction, RegisterEventHandler
+from launch.actions import EmitEvent, GroupAction, OpaqueFunction, RegisterEventHandler
 from launch.conditions import IfCondition
 from launch.event_handlers import OnProcessIO
 from launch.events import Shutdown
 from launch_ros.actions import ComposableNodeContainer, LoadComposableNodes, PushRosNamespace, SetParameter, SetRemap
 from launch_ros.actions.load_composable_nodes import get_composable_node_load_request
-from launch_ros.descriptions import ComposableNode
+from launch_ros.descriptions import ComposableLifecycleNode, ComposableNode
+from launch_ros.event_handlers import OnStateTransition
 from rclpy.parameter import Parameter
 
 NODES = """
@@ -33,6 +34,10 @@ class Managed(LifecycleNode):
     def __init__(self):
         LifecycleNode.__init__(self, "managed")
         self.get_logger().info(f"PROCESS {os.getpid()} {self.get_fully_qualified_name()}")
+
+    def on_activate(self, state):
+        self.get_logger().info(f"PROCESS {os.getpid()} active")
+        return super().on_activate(state)
 
 
 class Broken(Node):
@@ -177,3 +182,26 @@ def test_containers_in_xml(launched, parse, tmp_path):
         *description.entities, RegisterEventHandler(OnProcessIO(target_action=box, on_stderr=all_of(b"PROCESS")))
     )
     assert [text for _, text in processes(lines)] == ["/own/left 5 /own/image"]
+
+
+def test_lifecycle_nodes_of_a_container_are_activated(launched, parse, tmp_path):
+    description = parse(
+        """<launch>
+          <node_container pkg="rclpy_components" exec="component_container" name="box" namespace="" output="screen">
+            <composable_lifecycle_node pkg="eyes" plugin="eyes::Managed" name="first" autostart="true"/>
+            <composable_lifecycle_node pkg="eyes" plugin="eyes::Managed" name="second"/>
+          </node_container>
+        </launch>""",
+        tmp_path,
+    )
+    box = description.entities[0]
+    seen = []
+    transitions = OnStateTransition(
+        goal_state="active", entities=[OpaqueFunction(function=lambda context: seen.append(context.locals.event))]
+    )
+    end = RegisterEventHandler(OnProcessIO(target_action=box, on_stderr=all_of(b"active", b"/second")))
+    _, lines = launched(RegisterEventHandler(transitions), *description.entities, end)
+    texts = [text for _, text in processes(lines)]
+    assert sorted(texts) == ["/first", "/second", "active"]
+    assert not ComposableLifecycleNode(package="eyes", plugin="eyes::Managed").node_autostart
+    assert {event.action.node_name for event in seen} <= {"/first"}

@@ -11,7 +11,9 @@ from coframe.workspace.packages.components import IN_CPP
 from launch.action import Action
 from launch.frontend.expose import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch_ros.actions.lifecycle_transition import LifecycleTransition
 from launch_ros.actions.node_parsing import parse_parameters, parse_remappings
+from launch_ros.descriptions.composable_lifecycle_node import ComposableLifecycleNode
 from launch_ros.descriptions.composable_node import ComposableNode
 from launch_ros.ros_adapters import get_ros_node
 from launch_ros.utilities import (
@@ -76,7 +78,7 @@ class LoadComposableNodes(Action):
             self.__logger.error("The target container has no name: its nodes are not loaded.")
             return None
         requests = [
-            get_composable_node_load_request(each, context)
+            (each, get_composable_node_load_request(each, context))
             for each in self.__descriptions
             if each.condition is None or each.condition.evaluate(context)
         ]
@@ -93,7 +95,9 @@ class LoadComposableNodes(Action):
         name = prefix_namespace(base, perform_substitutions(context, self.__target))
         return make_namespace_absolute(name)
 
-    async def __load(self, context: LaunchContext, container: str, requests: list[LoadNode.Request]) -> None:
+    async def __load(
+        self, context: LaunchContext, container: str, requests: list[tuple[ComposableNode, LoadNode.Request]]
+    ) -> None:
         """Load the nodes; this waits for the container as long as the system is not shut down."""
         from composition_interfaces.srv import LoadNode  # noqa: PLC0415 - slow to import
 
@@ -111,10 +115,12 @@ class LoadComposableNodes(Action):
                 return
         in_cpp: list[str] = []
         try:
-            for request in requests:
+            for description, request in requests:
                 if self.__has_ended(context):
                     return
-                await self.__load_one(context, container, client.call_async(request), request, in_cpp)
+                name = await self.__load_one(context, container, client.call_async(request), request, in_cpp)
+                if name and isinstance(description, ComposableLifecycleNode):
+                    await self.__start(context, description, name)
         finally:
             if in_cpp:
                 self.__logger.error(
@@ -124,17 +130,28 @@ class LoadComposableNodes(Action):
 
     async def __load_one(
         self, context: LaunchContext, container: str, future: Any, request: LoadNode.Request, in_cpp: list[str]
-    ) -> None:
+    ) -> str:
+        """Wait for the response, and return the name of the node; "" if it is not loaded."""
         while not future.done():
             if self.__has_ended(context):
                 self.__logger.warning(f"Abandoning wait for '{request.plugin_name}' in '{container}', due to shutdown.")
-                return
+                return ""
             await asyncio.sleep(_ANSWER)
         response = future.result()
         if response is not None and IN_CPP in response.error_message:
             in_cpp.append(request.plugin_name)
-        else:
-            self.__report(context, container, request, response)
+            return ""
+        return self.__report(context, container, request, response)
+
+    async def __start(self, context: LaunchContext, description: ComposableLifecycleNode, name: str) -> None:
+        """Let events change the state of a loaded node, and activate it if its description says so."""
+        container = self.__container
+        description.start_events(context, name, lambda: None if container is None else container.return_code)
+        if not description.node_autostart:
+            return
+        transition = LifecycleTransition(lifecycle_node_names=[name], transition_ids=["configure", "activate"])
+        for action in transition.execute(context) or ():
+            action.visit(context)
 
     def __has_ended(self, context: LaunchContext) -> bool:
         return context.is_shutdown or (self.__container is not None and self.__container.return_code is not None)
@@ -145,14 +162,14 @@ class LoadComposableNodes(Action):
         container: str,
         request: LoadNode.Request,
         response: LoadNode.Response | None,
-    ) -> None:
+    ) -> str:
         name = request.node_name or request.plugin_name
         if response is None or not response.success:
             reason = "no response" if response is None else response.error_message
             self.__logger.error(
                 f"Failed to load node '{name}' of type '{request.plugin_name}' in container '{container}': {reason}"
             )
-            return
+            return ""
         loaded = response.full_node_name or name
         self.__logger.info(f"Loaded node '{loaded}' in container '{container}'")
         add_node_name(context, loaded)
@@ -161,6 +178,7 @@ class LoadComposableNodes(Action):
             self.__logger.warning(
                 f"there are now at least {count} nodes with the name {loaded} created within this launch context"
             )
+        return loaded
 
 
 def get_composable_node_load_request(
@@ -195,26 +213,35 @@ def get_composable_node_load_request(
 
 
 def parse_composable_nodes(entity: Entity, parser: Parser) -> list[ComposableNode] | None:
-    """Return the composable nodes of an element, or None."""
+    """Return the composable nodes of an element, those with a life cycle after the others, or None."""
     children = entity.get_attr("composable_node", data_type=list, optional=True)
-    found = []
-    for child in children or ():
-        _, options = Action.parse(child, parser)  # if and unless
-        for name, keyword in (
-            ("pkg", "package"),
-            ("plugin", "plugin"),
-            ("name", "name"),
-            ("namespace", "namespace"),
-        ):
-            text = child.get_attr(name, optional=name not in {"pkg", "plugin"})
-            if text is not None:
-                options[keyword] = parser.parse_substitution(text)
-        parameters = child.get_attr("param", data_type=list, optional=True)
-        if parameters is not None:
-            options["parameters"] = parse_parameters(parameters, parser)
-        options["remappings"] = parse_remappings(child, parser)
-        extra = child.get_attr("extra_arg", data_type=list, optional=True)
-        if extra is not None:
-            options["extra_arguments"] = parse_parameters(extra, parser)
-        found.append(ComposableNode(**options))
-    return found if children is not None else None
+    managed = entity.get_attr("composable_lifecycle_node", data_type=list, optional=True)
+    if children is None and managed is None:
+        return None
+    found = [ComposableNode(**_options_of(child, parser)) for child in children or ()]
+    for child in managed or ():
+        autostart = child.get_attr("autostart", data_type=bool, optional=True)
+        found.append(ComposableLifecycleNode(autostart=bool(autostart), **_options_of(child, parser)))
+    return found
+
+
+def _options_of(child: Entity, parser: Parser) -> dict[str, Any]:
+    """Return the arguments of ComposableNode that an element has."""
+    _, options = Action.parse(child, parser)  # if and unless
+    for name, keyword in (
+        ("pkg", "package"),
+        ("plugin", "plugin"),
+        ("name", "name"),
+        ("namespace", "namespace"),
+    ):
+        text = child.get_attr(name, optional=name not in {"pkg", "plugin"})
+        if text is not None:
+            options[keyword] = parser.parse_substitution(text)
+    parameters = child.get_attr("param", data_type=list, optional=True)
+    if parameters is not None:
+        options["parameters"] = parse_parameters(parameters, parser)
+    options["remappings"] = parse_remappings(child, parser)
+    extra = child.get_attr("extra_arg", data_type=list, optional=True)
+    if extra is not None:
+        options["extra_arguments"] = parse_parameters(extra, parser)
+    return options

@@ -2,6 +2,7 @@
 """Functions that the actions share."""
 
 from launch_ros.utilities.evaluate_parameters import evaluate_parameter_dict, evaluate_parameters
+from launch_ros.utilities.lifecycle_event_manager import LifecycleEventManager
 from launch_ros.utilities.namespace_utils import (
     is_namespace_absolute,
     is_root_namespace,
@@ -14,6 +15,7 @@ from launch_ros.utilities.to_parameters_list import to_parameters_list
 from launch_ros.utilities.track_node_names import add_node_name, get_node_name_count
 
 __all__ = [
+    "LifecycleEventManager",
     "add_node_name",
     "evaluate_parameter_dict",
     "evaluate_parameters",
