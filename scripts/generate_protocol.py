@@ -228,7 +228,17 @@ def typescript(version: str) -> str:
             _alias(name)
             for name in (
                 *("ViewerMode", "FrameActivity", "DisplayState", "Severity", "FindingsState", "ColorBy"),
-                *("LogLevel", "CompletionKind", "NodeKind", "UploadState", "WidgetKind", "ShapeKind", "JointKind"),
+                *(
+                    "LogLevel",
+                    "CompletionKind",
+                    "NodeKind",
+                    "ControlKind",
+                    "ControlStep",
+                    "UploadState",
+                    "WidgetKind",
+                    "ShapeKind",
+                    "JointKind",
+                ),
             )
         ),
         *(_interface(one) for one in all_records),

@@ -201,6 +201,7 @@ export function showPage(source: MessageSource): void {
       case "log":
       case "graph":
       case "completions":
+      case "controlled":
       case "node":
       case "nodes_removed":
       case "widget":

@@ -17,6 +17,7 @@ const LAYERS = [
   "message_inspector",
   "log",
   "node_graph",
+  "control",
   "panels",
 ];
 const SRC = join(import.meta.dirname, "../src");

@@ -109,6 +109,11 @@ no_browser_option = click.option("--no-browser", is_flag=True, help="Print the a
     type=click.FloatRange(min=0.1, max=MAX_RATE),
     help="Frames per second of the replay. [default: 30, or fewer if the recording is long]",
 )
+@click.option(
+    "--control",
+    is_flag=True,
+    help="Let the pages publish any message, call services, set parameters, send goals and drive the robot.",
+)
 @domain_option
 @recorded_listener_options
 def view(
@@ -125,6 +130,7 @@ def view(
     start: str | None,
     stop: str | None,
     rate: float | None,
+    control: bool,
     domain: int | None,
     tf_topic: str | None,
     tf_static_topic: str | None,
@@ -152,6 +158,8 @@ def view(
         return
     if unused := [f"--{name}" for name, value in replay.items() if value is not None]:
         fail(f"{unused[0]} can only be used with --output", code=2)
+    if control and not live:
+        fail("--control needs the live ROS graph", "Omit the recording.", code=2)
     return_freed_arrays()
     with run_until_interrupted():
         if live:
@@ -178,6 +186,10 @@ def view(
                 from coframe.viewer.sources.live import LiveSource  # noqa: PLC0415 - recordings need no middleware
 
                 viewer.set_source(LiveSource(node, own=True))
+                if control:
+                    from coframe.cli.view_control import NodeControl  # noqa: PLC0415 - slow import
+
+                    viewer.set_control(NodeControl(domain))
             else:
                 progress = _ReadingProgress(viewer, browser=not no_browser)
                 choice = TransformChoice(None, tf_topic, tf_static_topic, prefix, keep)

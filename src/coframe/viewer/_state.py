@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from coframe.viewer.rviz.config import RvizConfig
     from coframe.viewer.sources.source import ViewerSource
     from coframe.viewer.sources.topic_messages import TopicMessages
+    from coframe.viewer.tools.control import GraphControl
 
 __all__ = ["FRAME_TIMEOUT", "ViewerState"]
 
@@ -81,6 +82,7 @@ class ViewerState:
         self.panels = Panels(source)
         self.callbacks = CallbackThread()
         self.can_open = can_open
+        self.control: GraphControl | None = None
         self.uploads = Uploads()
         self._recent: dict[int, ViewerSource] = {}
         self._recent_ids = itertools.count(1)
@@ -156,6 +158,11 @@ class ViewerState:
         self.source.title = title
         self.edition += 1
 
+    def set_control(self, control: GraphControl) -> None:
+        """Permit the pages to act on the graph. The viewer closes the control."""
+        self.control = control
+        self.edition += 1
+
     @property
     def can_publish(self) -> bool:
         """Whether the pages may publish."""
@@ -226,6 +233,8 @@ class ViewerState:
         self.executor.shutdown(wait=True, cancel_futures=True)
         self._close_tools()
         self.descriptions.close()
+        if self.control is not None:
+            self.control.close()
         for source in self._opened:
             source.close()
         self.uploads.close()

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from coframe.robots import Robot
     from coframe.viewer._notebook import Inline
     from coframe.viewer.sources.source import Mode, ViewerSource
+    from coframe.viewer.tools.control import GraphControl
 
 __all__ = ["Viewer", "show", "start_viewer"]
 
@@ -100,6 +101,10 @@ class Viewer:
         """Show another source. The viewer closes it when it stops."""
         self._sources.append(source)
         self._server.call(self._state.set_source, source)
+
+    def set_control(self, control: GraphControl) -> None:
+        """Permit the pages to act on the graph. The viewer closes the control when it stops."""
+        self._server.call(self._state.set_control, control)
 
     def set_title(self, title: str) -> None:
         """Change the title of the page."""

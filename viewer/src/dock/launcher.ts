@@ -7,7 +7,7 @@ import { remember, remembered } from "../util/storage";
 import { toast } from "../util/toast";
 import type { Dock } from "./dock";
 
-export type PaneId = "plots" | "message" | "log" | "graph";
+export type PaneId = "plots" | "message" | "log" | "graph" | "control";
 
 /** Makes the dock; `onChange` is called with the ids of the open panels. */
 export type MakeDock = (root: HTMLElement, onChange: (shown: string[]) => void) => Dock;
@@ -17,6 +17,7 @@ const PANES: readonly (readonly [id: PaneId, text: string, detail: string, key: 
   ["message", "Message inspector", "The fields of the newest message", "i"],
   ["log", "Log", "Messages on /rosout", "e"],
   ["graph", "Nodes and topics", "Who publishes and subscribes to what", "r"],
+  ["control", "Control", "Publish, call services, set parameters, send goals, drive", "j"],
 ];
 
 export class DockLauncher {

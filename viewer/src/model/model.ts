@@ -8,6 +8,7 @@ import type {
   ClientMessage,
   CodePage,
   Completions,
+  Controlled,
   Curves,
   CurveStatus,
   DisplayMessage,
@@ -67,6 +68,7 @@ export interface ModelEvents {
   log: LogEntries;
   graph: NodeGraph;
   completions: Completions;
+  controlled: Controlled;
   node: SceneNode;
   geometry: NodeGeometry;
   nodes_removed: RemovedNodes;

@@ -129,6 +129,7 @@ export class ReplaySource implements MessageSource {
       })),
       can_publish: false,
       can_open: false,
+      can_control: false,
       recent: [],
     };
     listener("text", hello);

@@ -87,6 +87,7 @@ class HelloFeed(_Feed):
                 topics=viewer.topics,
                 can_publish=viewer.can_publish,
                 can_open=viewer.can_open,
+                can_control=viewer.control is not None,
                 recent=viewer.recent_sources(),
             )
         )

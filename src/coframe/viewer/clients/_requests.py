@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from coframe.doctor.codes import codes, page
 from coframe.errors import ViewerError, WireError
+from coframe.viewer.clients._control_requests import CONTROL_HANDLERS
 from coframe.viewer.clients._panel_requests import PANEL_HANDLERS
 from coframe.viewer.clients._upload_requests import UPLOAD_HANDLERS
 from coframe.viewer.displays import Options
@@ -287,6 +288,7 @@ _HANDLERS: dict[type, Callable[[ClientState, Any], Awaitable[ServerMessage | Non
     client_messages.Subscribe: _subscribe,
     client_messages.Unsubscribe: _unsubscribe,
     client_messages.UseWidget: _use_widget,
+    **CONTROL_HANDLERS,
     **PANEL_HANDLERS,
     **UPLOAD_HANDLERS,
 }

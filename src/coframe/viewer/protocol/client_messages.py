@@ -14,6 +14,8 @@ from coframe.viewer.protocol.common import (
     AxisName,
     ColorBy,
     CompletionKind,
+    ControlKind,
+    ControlStep,
     Id,
     JsonObject,
     Nanoseconds,
@@ -355,6 +357,39 @@ class RequestCompletions:
 
 
 @dataclass(frozen=True)
+class ControlGraph:
+    """Acts on the graph, which needs a permission.
+
+    Attributes:
+        id: The number of the request.
+        step: "names" lists what exists, "form" requests the fields, "act" publishes, calls, sends or sets.
+        kind: What ``name`` belongs to.
+        name: The topic, service, action or node; "" for "names".
+        ros_type: Its type, or "" for the type that it has on the graph.
+        values: The fields or parameters to set.
+    """
+
+    type: ClassVar[str] = "control"
+    id: Id
+    step: ControlStep
+    kind: ControlKind
+    name: str = ""
+    ros_type: str = ""
+    values: JsonObject = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Drive:
+    """Publishes a velocity in meters and radians per second; the page repeats it as long as the robot should drive."""
+
+    type: ClassVar[str] = "drive"
+    topic: str
+    ros_type: str
+    linear: tuple[float, float]
+    angular: float
+
+
+@dataclass(frozen=True)
 class ClickNode:
     """Reports a click on a node that is clickable.
 
@@ -419,6 +454,8 @@ ClientMessage: TypeAlias = (
     | ShowLog
     | ShowGraph
     | RequestCompletions
+    | ControlGraph
+    | Drive
     | ClickNode
     | UseWidget
     | FrameDrawn

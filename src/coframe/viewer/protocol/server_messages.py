@@ -88,6 +88,7 @@ class Hello(TypedDict):
     topics: list[DisplayTopic]
     can_publish: bool
     can_open: bool
+    can_control: bool
     recent: list[RecentSource]
 
 
@@ -502,6 +503,26 @@ class PublishResult(TypedDict):
     subscribers: int
 
 
+class ControlledField(TypedDict):
+    """A name with its type, or a field with its path, type and value as JSON."""
+
+    path: str
+    type: str
+    value: str
+
+
+class Controlled(TypedDict):
+    """The answer to ``control``. ``text`` says what has happened, or why it has failed."""
+
+    type: Literal["controlled"]
+    id: int
+    ok: bool
+    text: str
+    hint: str
+    ros_type: str
+    fields: list[ControlledField]
+
+
 class SceneNode(TypedDict):
     """A node that a program has added to the scene. Its `NodeHeader` message follows if the node has a geometry.
 
@@ -598,6 +619,7 @@ ServerMessage: TypeAlias = (
     | UploadProgress
     | ReplayPrepared
     | PublishResult
+    | Controlled
     | SceneNode
     | RemovedNodes
     | Widget
