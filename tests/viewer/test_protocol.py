@@ -89,7 +89,7 @@ def test_valid_requests_become_instances_of_their_class():
         ('{"type":"time","mode":"at","at":' + "9" * 400 + "}", "at of a message 'time' must be a number from"),
         ('{"type":"time","mode":"sideways"}', "mode of a message 'time' must be 'live' or 'at', not 'sideways'"),
         ('{"type":"time","mode":"at","loop":[1]}', "loop of a message 'time' must be an array of 2 values"),
-        ('{"type":"launch"}', "unknown message type 'launch'. Known types: click, complete, curves, explain, fixed,"),
+        ('{"type":"launch"}', "unknown message type 'launch'. Known types: click, complete, control, curves, drive,"),
         ('{"type":"fixed"}', "frame of a message 'fixed' must be text, not None"),
         (
             '{"type":"subscribe","id":4294967296,"topic":"/a"}',

@@ -10,7 +10,7 @@ from coframe.doctor.codes import codes, page
 from coframe.errors import ViewerError, WireError
 from coframe.viewer.clients._control_requests import CONTROL_HANDLERS
 from coframe.viewer.clients._panel_requests import PANEL_HANDLERS
-from coframe.viewer.clients._upload_requests import UPLOAD_HANDLERS
+from coframe.viewer.clients._upload_requests import UPLOAD_HANDLERS, UploadedPart, receive_part
 from coframe.viewer.displays import Options
 from coframe.viewer.displays.part_values import part_values
 from coframe.viewer.protocol import client_messages
@@ -36,7 +36,6 @@ if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
 
     from coframe.viewer.clients._state import ClientState
-    from coframe.viewer.clients._upload_requests import UploadedPart
     from coframe.viewer.protocol.client_messages import ClientMessage
     from coframe.viewer.protocol.server_messages import Relation, ServerMessage
     from coframe.viewer.tools.publisher import ToolPublisher
@@ -52,6 +51,8 @@ async def handle(client: ClientState, request: ClientMessage | UploadedPart) -> 
     Raises:
         BadRequestError: The request cannot be fulfilled.
     """
+    if isinstance(request, UploadedPart):
+        return await receive_part(client, request)
     return await _HANDLERS[type(request)](client, request)
 
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from coframe.viewer.protocol.common import UploadState
     from coframe.viewer.protocol.server_messages import ServerMessage
 
-__all__ = ["UPLOAD_HANDLERS", "UploadedPart"]
+__all__ = ["UPLOAD_HANDLERS", "UploadedPart", "receive_part"]
 
 
 class UploadedPart(NamedTuple):
@@ -42,7 +42,8 @@ async def _open_files(client: ClientState, request: client_messages.OpenFiles) -
     return await _continue(client, client.upload)
 
 
-async def _receive(client: ClientState, part: UploadedPart) -> UploadProgress | None:
+async def receive_part(client: ClientState, part: UploadedPart) -> UploadProgress | None:
+    """Store the next bytes of an upload, and return the progress."""
     upload = client.upload
     if upload is None:  # The rest of an upload that has failed.
         if not client.viewer.can_open:
@@ -114,5 +115,4 @@ async def _in_background(client: ClientState, function: Callable[..., Any], *arg
 UPLOAD_HANDLERS: dict[type, Callable[[ClientState, Any], Awaitable[ServerMessage | None]]] = {
     client_messages.OpenFiles: _open_files,
     client_messages.OpenRecent: _open_recent,
-    UploadedPart: _receive,
 }
