@@ -34,6 +34,10 @@ _MAX_ANGLE_ERROR = np.radians(3.0)
 _REAR_NAMES = re.compile("rear|back|aft")
 _DIRECTIONS = ("forward", "left", "up", "backward", "right", "down")
 _MAX_CANDIDATES = 2
+_TOOL_NAMES = re.compile("tool|flange|gripper|hand|effector|tcp|wrist")
+_TYPED_STEPS = (1e-3, np.radians(0.1))
+_MAX_TYPED_ERROR = 2e-6  # radians
+_MIN_REORDERED_ANGLE = np.radians(0.3)
 
 
 class WrongAxes(NamedTuple):
@@ -60,7 +64,7 @@ def is_optical(edge: Edge) -> bool:
 def wrong_axes(observation: Observation, edge: Edge) -> WrongAxes | None:
     """Return what is wrong with the axes of an optical frame, or None if a camera can be mounted in this way."""
     if _is_body_of(edge.parent, edge.child):
-        return _check_rep103_rotation(edge)
+        return _check_rep103_rotation(edge) or _optical_values_for_the_body(observation, edge)
     chain = [edge] if is_base_frame(edge.parent) else [edge, *observation.mounts(edge.parent)]
     turn = _product(chain, None)
     if not is_base_frame(chain[-1].parent) or _REAR_NAMES.search(edge.child.lower()):
@@ -70,9 +74,74 @@ def wrong_axes(observation: Observation, edge: Edge) -> WrongAxes | None:
     right, _, forward = _axes(turn)
     down = _axes(turn)[1]
     is_rolled = abs(right[2]) > _MIN_ROLLED_SINE or down[2] > _MAX_TILT_SINE
-    if not is_rolled or forward[0] > _MIN_ROLLED_SINE:
+    if is_rolled:
+        return None if forward[0] > _MIN_ROLLED_SINE else _find_corrected_edge(chain, turn)
+    return _with_round_angles(edge)
+
+
+def _optical_values_for_the_body(observation: Observation, edge: Edge) -> WrongAxes | None:
+    """Return a mount of a camera's body whose rotation is that of its optical frame.
+
+    On a robot, the camera is upright and looks ahead if the rotation is that of the optical frame. On a gripper, it
+    looks along the axis of the tool.
+    """
+    above = observation.last.get(edge.parent)
+    if above is None or not (above.static or above.constant):
         return None
-    return _find_corrected_edge(chain, turn)
+    own = above.rotations[-1]
+    if is_base_frame(above.parent):
+        right, down, forward = _axes(own)
+        is_upright = abs(right[2]) < _MAX_TILT_SINE and down[2] < -_MIN_ALIGNED_COSINE
+        meant = bool(is_upright and abs(forward[2]) < _MIN_ROLLED_SINE)
+    elif _TOOL_NAMES.search(above.parent.lower()):
+        meant = bool(_axes(own)[2][2] > _MIN_ALIGNED_COSINE and _angle(own, _IDENTITY) > _MAX_UNROTATED_ANGLE)
+        meant = meant and abs(float(_axes(quaternion.multiply(own, OPTICAL))[2][2])) < _MIN_ROLLED_SINE
+    else:
+        return None
+    if not meant:
+        return None
+    rotation = quaternion.multiply(own, quaternion.inverse(OPTICAL))
+    text = (
+        f"{above.child!r} is the body of a camera, and is rotated like its optical frame {edge.child!r}: with the "
+        "rotation to the optical frame, the camera looks sideways"
+    )
+    fix = f"The values are those of {edge.child!r}: remove the rotation of optical frames (REP-103) from them."
+    return WrongAxes(above, text, fix, np.concatenate([above.values[-1, :3], rotation]))
+
+
+def _with_round_angles(edge: Edge) -> WrongAxes | None:
+    """Return a mount whose angles are round only with the numbers of its quaternion in another order.
+
+    Near the axes of an optical frame all four numbers are alike, so that another order is hardly another rotation: only
+    angles that were typed show it.
+    """
+    turn = edge.rotations[-1]
+    if _has_round_angles(turn):
+        return None
+    for shift, reading in ((-1, "is read as w, x, y, z"), (1, "x, y, z, w was passed as w, x, y, z")):
+        other = np.roll(turn, shift)
+        if _has_round_angles(other) and _angle(turn, other) > _MIN_REORDERED_ANGLE:
+            roll, pitch, yaw = (f"{value + 0.0:.4g}" for value in _body_angles(other))
+            text = (
+                f"the rotation of {edge.child!r} is {np.degrees(_angle(turn, other)):.3g} degrees from one with round "
+                f"angles: roll {roll}, pitch {pitch}, yaw {yaw} degrees of the body if its quaternion {reading}"
+            )
+            fix = "A quaternion of ROS is x, y, z, w: set rotation.w from the scalar."
+            return WrongAxes(edge, text, fix, np.concatenate([edge.values[-1, :3], other]))
+    return None
+
+
+def _body_angles(turn: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return roll, pitch and yaw in degrees of the body of a camera whose optical frame has a rotation."""
+    angles = quaternion.to_rpy(quaternion.multiply(turn, quaternion.inverse(OPTICAL)))
+    return np.asarray(np.round(np.degrees(angles), 6))
+
+
+def _has_round_angles(turn: NDArray[np.float64]) -> bool:
+    """Return whether the angles of a camera's body were typed: steps of 0.001 radians, or of 0.1 degrees."""
+    angles = quaternion.to_rpy(quaternion.multiply(turn, quaternion.inverse(OPTICAL)))
+    return any(bool((np.abs(angles / step - np.round(angles / step)) * step < _MAX_TYPED_ERROR).all())
+               for step in _TYPED_STEPS)  # fmt: skip
 
 
 _IDENTITY = np.array([0.0, 0.0, 0.0, 1.0])

@@ -28,11 +28,13 @@ if TYPE_CHECKING:
 
     from coframe.analysis.clock_offset import ClockOffset
     from coframe.analysis.clocks import ClockName
+    from coframe.cameras import CameraModel
 
 __all__ = [
     "NEVER",
     "Edge",
     "Observation",
+    "ObservedCamera",
     "ObservedClock",
     "ObservedEndpoint",
     "ObservedImu",
@@ -173,6 +175,27 @@ class ObservedImu:
 
 
 @dataclass(frozen=True, eq=False)
+class ObservedCamera:
+    """The first CameraInfo of a topic.
+
+    Attributes:
+        topic: The topic on which it was published.
+        frame: The optical frame.
+        distortion_model: The name of the model as published.
+        coefficients: Its coefficients.
+        model: The camera, or None if it cannot be used.
+        problem: Why it cannot be used, or "".
+    """
+
+    topic: str
+    frame: str
+    distortion_model: str
+    coefficients: tuple[float, ...]
+    model: CameraModel | None = None
+    problem: str = ""
+
+
+@dataclass(frozen=True, eq=False)
 class ObservedClock:
     """Simulated time: the arrival times of the messages on /clock, and the times in them; (N,) each."""
 
@@ -221,6 +244,7 @@ class Observation:
         positions: The positions in messages with poses, one entry per topic; recordings only.
         poses: The poses of odometry topics, one entry per topic; recordings only.
         imus: The first messages of each IMU; recordings only.
+        cameras: The first CameraInfo of each topic; recordings only.
         clock: Simulated time, or None without /clock.
         travel: The transport times of the transforms of each publisher, measured with the clocks of two machines; only
         live.
@@ -247,6 +271,7 @@ class Observation:
     positions: tuple[ObservedPositions, ...] = ()
     poses: tuple[ObservedPoses, ...] = ()
     imus: tuple[ObservedImu, ...] = ()
+    cameras: tuple[ObservedCamera, ...] = ()
     clock: ObservedClock | None = None
     travel: dict[str, NDArray[np.int64]] = field(default_factory=dict)
     log: tuple[ObservedLogLine, ...] = ()

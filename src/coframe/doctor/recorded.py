@@ -13,6 +13,7 @@ from coframe.bags import from_yaml
 from coframe.bags.namespaces import TransformChoice, namespace_of
 from coframe.bags.recording import open_with_choice
 from coframe.bags.transforms import ingest_for, is_static
+from coframe.cameras import CameraError, CameraModel
 from coframe.doctor._joints import joint_states
 from coframe.doctor._sampled_points import sampled_points
 from coframe.doctor.collector import Collector
@@ -20,6 +21,7 @@ from coframe.doctor.observation import (
     DEFAULT_CACHE,
     NEVER,
     Observation,
+    ObservedCamera,
     ObservedClock,
     ObservedEndpoint,
     ObservedImu,
@@ -47,9 +49,11 @@ if TYPE_CHECKING:
 __all__ = ["collecting_callback", "observe_recording"]
 
 _MAX_DECODED = 2000  # limit of messages per topic
+_MAX_CAMERA_INFOS = 1
 _MAX_DESCRIPTIONS = 10
 _NORM_TOLERANCE = 5e-3  # how far a quaternion is off length 1 in tf2
 _ODOMETRY, _IMU = "nav_msgs/msg/Odometry", "sensor_msgs/msg/Imu"
+_CAMERA_INFO = "sensor_msgs/msg/CameraInfo"
 _PART_COUNT, _MESSAGES_PER_PART = 20, 25  # parts of a topic that are looked at, and successive messages in each
 _MIN_RATE = 1.0  # Hz; what is published more slowly, such as goals, need not be on one track
 _POSE_FIELDS: dict[str, Callable[[Any], Any]] = {
@@ -129,6 +133,7 @@ def observe_chosen(
                 positions=tuple(p for p in facts.positions if _is_in_namespace(p.topic, name, collectors)),
                 poses=tuple(p for p in facts.poses if _is_in_namespace(p.topic, name, collectors)),
                 imus=tuple(i for i in facts.imus if _is_in_namespace(i.topic, name, collectors)),
+                cameras=tuple(c for c in facts.cameras if _is_in_namespace(c.topic, name, collectors)),
                 clock=facts.clock,
                 log=facts.log,
                 cache=cache,
@@ -196,6 +201,7 @@ class _Facts:
         ]
         self.poses = [poses for name in self._topics_of_type({_ODOMETRY}) if (poses := self._poses(name)) is not None]
         self.imus = [imu for name in self._topics_of_type({_IMU}) if (imu := self._imu(name)) is not None]
+        self.cameras = [c for name in self._topics_of_type({_CAMERA_INFO}) for c in self._cameras(name)]
         self.log = tuple(line for name in self._topics_of_type(_LOG_TYPES) for line in self._log_lines(name))
 
     def _publishers(self, topic: str) -> tuple[ObservedEndpoint, ...]:
@@ -309,6 +315,24 @@ class _Facts:
             return None
         values = values[np.isfinite(values).all(axis=(1, 2))]
         return ObservedImu(topic, self._recording.frame(frame), values[:, 0], values[:, 1]) if frame else None
+
+    def _cameras(self, topic: str) -> Iterator[ObservedCamera]:
+        """Yield the first CameraInfo of a topic that has a size and a frame."""
+        for message in self._decode_first(topic, _MAX_CAMERA_INFOS):
+            try:
+                frame = self._recording.frame(str(message.header.frame_id).lstrip("/"))
+                d = tuple(float(value) for value in getattr(message, "d" if hasattr(message, "d") else "D"))
+                name = str(message.distortion_model)
+                try:
+                    model, problem = CameraModel.from_info(message), ""
+                except CameraError as error:
+                    model, problem = None, str(error)
+            except (AttributeError, TypeError, ValueError, OverflowError):
+                return
+            # Drivers without a calibration publish zeros, which is correct.
+            is_calibrated = model is not None or any(d)
+            yield ObservedCamera(topic, frame, name, d, model, problem if is_calibrated else "")
+            return
 
     def _log_lines(self, topic: str) -> Iterator[ObservedLogLine]:
         received = self._recording.received(topic)
