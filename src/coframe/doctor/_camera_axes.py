@@ -95,12 +95,12 @@ def _optical_values_for_the_body(observation: Observation, edge: Edge) -> WrongA
         meant = bool(is_upright and abs(forward[2]) < _MIN_ROLLED_SINE)
     elif _TOOL_NAMES.search(above.parent.lower()):
         meant = bool(_axes(own)[2][2] > _MIN_ALIGNED_COSINE and _angle(own, _IDENTITY) > _MAX_UNROTATED_ANGLE)
-        meant = meant and abs(float(_axes(quaternion.multiply(own, OPTICAL))[2][2])) < _MIN_ROLLED_SINE
+        meant = meant and abs(float(_axes(quaternion.multiply(own, OPTICAL_ROTATION))[2][2])) < _MIN_ROLLED_SINE
     else:
         return None
     if not meant:
         return None
-    rotation = quaternion.multiply(own, quaternion.inverse(OPTICAL))
+    rotation = quaternion.multiply(own, quaternion.inverse(OPTICAL_ROTATION))
     text = (
         f"{above.child!r} is the body of a camera, and is rotated like its optical frame {edge.child!r}: with the "
         "rotation to the optical frame, the camera looks sideways"
@@ -133,13 +133,13 @@ def _with_round_angles(edge: Edge) -> WrongAxes | None:
 
 def _body_angles(turn: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return roll, pitch and yaw in degrees of the body of a camera whose optical frame has a rotation."""
-    angles = quaternion.to_rpy(quaternion.multiply(turn, quaternion.inverse(OPTICAL)))
+    angles = quaternion.to_rpy(quaternion.multiply(turn, quaternion.inverse(OPTICAL_ROTATION)))
     return np.asarray(np.round(np.degrees(angles), 6))
 
 
 def _has_round_angles(turn: NDArray[np.float64]) -> bool:
     """Return whether the angles of a camera's body were typed: steps of 0.001 radians, or of 0.1 degrees."""
-    angles = quaternion.to_rpy(quaternion.multiply(turn, quaternion.inverse(OPTICAL)))
+    angles = quaternion.to_rpy(quaternion.multiply(turn, quaternion.inverse(OPTICAL_ROTATION)))
     return any(bool((np.abs(angles / step - np.round(angles / step)) * step < _MAX_TYPED_ERROR).all())
                for step in _TYPED_STEPS)  # fmt: skip
 
