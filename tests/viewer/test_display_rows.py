@@ -44,6 +44,7 @@ POSE = {
     "Axes Length": 0.3,
     "Axes Radius": 0.02,
 }
+NESTED_POSE = {"Shape/Value" if key == "Shape" else f"Shape/{key}": value for key, value in POSE.items()}
 COVARIANCE = {
     "Covariance/Value": True,
     "Covariance/Position/Value": True,
@@ -151,7 +152,7 @@ PROMISED = {
     ),
     "Marker": (("visualization_msgs/msg/Marker",), {}, "chosen projected solid"),
     "MarkerArray": (("visualization_msgs/msg/MarkerArray",), {}, "chosen projected solid"),
-    "Odometry": (("nav_msgs/msg/Odometry",), POSE | COVARIANCE | {"Keep": 100.0}, "chosen projected solid"),
+    "Odometry": (("nav_msgs/msg/Odometry",), NESTED_POSE | COVARIANCE | {"Keep": 100.0}, "chosen projected solid"),
     "Path": (
         ("nav_msgs/msg/Path",),
         {

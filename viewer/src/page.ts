@@ -68,7 +68,7 @@ export function showPage(source: MessageSource): void {
     (data) => source.sendBytes(data),
     (file) => void rviz.open(file),
   );
-  const timeline = new Timeline(byId("timeline"), model);
+  const timeline = new Timeline(byId("timeline"), model, source.live ? reset : null);
   const dock = new DockLauncher(byId("dock"), model, async () => {
     // Never in a replay: it has no server that could fill the panels, and does not contain their script.
     const { makeDock } = await import("./panes");
@@ -89,6 +89,9 @@ export function showPage(source: MessageSource): void {
     { key: ".", text: "Next message", act: () => timeline.step(1) },
     { key: "ArrowLeft", shown: "←", text: "Back by one second", act: () => timeline.jump(-1) },
     { key: "ArrowRight", shown: "→", text: "Forward by one second", act: () => timeline.jump(1) },
+    ...(source.live
+      ? [{ key: "R", shown: "Shift r", text: "Reset: start again without the data received so far", act: reset }]
+      : []),
     { key: "o", text: "Loop", act: () => timeline.toggleLoop() },
     { key: "t", text: "Rates over time", act: () => timeline.toggleSparklines() },
     { key: "a", text: "Show everything", act: () => view.fit() },
@@ -137,6 +140,17 @@ export function showPage(source: MessageSource): void {
     if (isNew && scene.hasWidgets) panel.choose("scene");
   }
 
+  function reset(): void {
+    model.send({ type: "restart" });
+  }
+
+  /** Says that everything has started again. Earlier times no longer exist, so the newest data is shown. */
+  function restarted(reason: string): void {
+    const recorded = model.hello?.mode === "recording";
+    if (!recorded) model.setClock({ live: true, playing: false, loop: null });
+    toast(`${reason}.`, "All displays start again without the data received so far.", "info");
+  }
+
   function hideSelected(): void {
     const { frame } = model.selection;
     if (frame) model.setHidden([frame], model.isShown(frame));
@@ -160,6 +174,11 @@ export function showPage(source: MessageSource): void {
         model.marks.clear();
         model.emit("hello", message);
         model.emit("topics", message.topics);
+        if (message.restart !== null) restarted(message.restart);
+        break;
+      case "pulse":
+        model.pulse = message;
+        model.emit("pulse", message);
         break;
       case "tree":
         model.forest = new Forest(message.revision, message.frames, message.components);
@@ -245,6 +264,9 @@ export function showPage(source: MessageSource): void {
     else if (event === "connected") {
       model.connected = value as boolean;
       model.emit("connected", model.connected);
+    } else if (event === "silent") {
+      model.silent = value as boolean;
+      model.emit("silent", model.silent);
     } else {
       model.invalidMessages++;
       console.warn(`coframe: ${value as string}`);

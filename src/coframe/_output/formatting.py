@@ -44,6 +44,18 @@ def duration(nanoseconds: float) -> str:
     return f"{nanoseconds:.0f} ns"
 
 
+def rounded_duration(seconds: float) -> str:
+    """Return a duration as a whole number of seconds, minutes or hours, for text that is updated.
+
+    Example:
+        >>> rounded_duration(12.3), rounded_duration(1020.0)
+        ('12 s', '17 min')
+    """
+    if seconds < 99.5:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 5970.0 else f"{seconds / 3600:.1f} h"
+
+
 def seconds(nanoseconds: int) -> str:
     """Return a stamp in seconds with all nine digits."""
     sign, size = ("-", -nanoseconds) if nanoseconds < 0 else ("", nanoseconds)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """``--ros-args`` of commands that replace ROS 2's tools, such as ``coframe static``.
 
-The names of the node and of the topics of transforms can be remapped. Other arguments, such as parameters, are accepted
-because ROS 2's tools accept them, but have no effect. rclpy's parser is not used, because a sourced ROS has no public
-one.
+The names of the node and of the topics of transforms can be remapped, and commands can read parameters that are true or
+false, such as use_sim_time. Other arguments are accepted because ROS 2's tools accept them, but have no effect. rclpy's
+parser is not used, because a sourced ROS has no public one.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from coframe.cli.declaration import Command
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["NodeCommand", "NodeIdentity", "node_identity"]
+__all__ = ["NodeCommand", "NodeIdentity", "node_identity", "parameter_flag"]
 
 _START, _END = "--ros-args", "--"
 _FLAGS_WITH_ARGUMENT = {"-p", "--param", "--params-file", "--log-level", "--log-config-file", "-e", "--enclave"}
@@ -45,6 +45,7 @@ class _Rule(NamedTuple):
 
 
 _rules: ContextVar[tuple[_Rule, ...]] = ContextVar("rules", default=())
+_parameters: ContextVar[dict[str, str]] = ContextVar("parameters", default={})  # noqa: B039 - it is never changed
 
 
 class NodeCommand(Command):
@@ -52,8 +53,9 @@ class NodeCommand(Command):
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Remove ``--ros-args ... --`` from the arguments, and parse the others with the remapped topics."""
-        own, rules = _split(args)
+        own, rules, parameters = _split(args)
         _rules.set(rules)
+        _parameters.set(parameters)
         namespace = node_identity("")["node_namespace"]
         for rule in rules:
             option = _OPTIONS.get(_full_name(rule.match, namespace))
@@ -76,29 +78,38 @@ def node_identity(default: str) -> NodeIdentity:
     return NodeIdentity(node_name=found["__node"], node_namespace=found["__ns"])
 
 
+def parameter_flag(name: str) -> bool | None:
+    """Return the value of a parameter that is true or false, or None if it is not given or has another value."""
+    return {"true": True, "false": False}.get(_parameters.get().get(name, "").lower())
+
+
 def _full_name(topic: str, namespace: str) -> str:
     return topic if topic.startswith("/") else f"{namespace.rstrip('/')}/{topic}"
 
 
-def _split(args: list[str]) -> tuple[list[str], tuple[_Rule, ...]]:
-    """Return the arguments outside of ``--ros-args ... --``, and the remapping rules inside."""
+def _split(args: list[str]) -> tuple[list[str], tuple[_Rule, ...], dict[str, str]]:
+    """Return the arguments outside of ``--ros-args ... --``, and the remapping rules and the parameters inside."""
     own: list[str] = []
     rules: list[_Rule] = []
+    parameters: dict[str, str] = {}
     words = iter(args)
     for word in words:
         if word == _START:
-            rules += _section(words)
+            rules += _section(words, parameters)
         else:
             own.append(word)
-    return own, tuple(rules)
+    return own, tuple(rules), parameters
 
 
-def _section(words: Iterator[str]) -> Iterator[_Rule]:
+def _section(words: Iterator[str], parameters: dict[str, str]) -> Iterator[_Rule]:
     for word in words:
         if word == _END:
             return
         if word in {"-r", "--remap"}:
             yield _parse(_argument(word, words))
+        elif word in {"-p", "--param"}:
+            name, _, value = _argument(word, words).partition(":=")
+            parameters[name] = value
         elif word in _FLAGS_WITH_ARGUMENT:
             _argument(word, words)
         elif ":=" in word and not word.startswith("-"):

@@ -24,13 +24,14 @@ from coframe.cli.options import (
     recorded_listener_options,
 )
 from coframe.cli.output import fail, warn
-from coframe.cli.ros_arguments import NodeCommand
+from coframe.cli.ros_arguments import NodeCommand, node_identity, parameter_flag
 from coframe.connection.connection import Connection
 from coframe.connection.listener_config import ListenerConfig
 from coframe.errors import ViewerError
 from coframe.viewer import start_viewer
 from coframe.viewer.replay.page import MAX_RATE
 from coframe.viewer.show import show as show_in_browser
+from coframe.viewer.sources.topic_names import NodeName
 from coframe.wire import selection
 
 if TYPE_CHECKING:
@@ -114,6 +115,12 @@ no_browser_option = click.option("--no-browser", is_flag=True, help="Print the a
     is_flag=True,
     help="Let the pages publish any message, call services, set parameters, send goals and drive the robot.",
 )
+@click.option(
+    "--use-sim-time/--use-system-time",
+    "use_sim_time",
+    default=None,
+    help="Follow the time of /clock, or the system time. [default: /clock if a node publishes it]",
+)
 @domain_option
 @recorded_listener_options
 def view(
@@ -131,6 +138,7 @@ def view(
     stop: str | None,
     rate: float | None,
     control: bool,
+    use_sim_time: bool | None,
     domain: int | None,
     tf_topic: str | None,
     tf_static_topic: str | None,
@@ -160,6 +168,7 @@ def view(
         fail(f"{unused[0]} can only be used with --output", code=2)
     if control and not live:
         fail("--control needs the live ROS graph", "Omit the recording.", code=2)
+    identity = node_identity("coframe_view")
     return_freed_arrays()
     with run_until_interrupted():
         if live:
@@ -174,6 +183,7 @@ def view(
             robot=robot,
             robot_arguments=arguments,
             mesh_roots=mesh_root,
+            node=NodeName(identity["node_namespace"], identity["node_name"]),
         )
         with viewer:
             # The browser starts while the graph is being joined or the recording is being read.
@@ -182,10 +192,11 @@ def view(
                 config = ListenerConfig.of(
                     domain=domain, tf_topic=tf_topic, tf_static_topic=tf_static_topic, prefix=prefix, keep=keep
                 )
-                node = Connection("coframe_view", config)
+                node = Connection(identity["node_name"], config, node_namespace=identity["node_namespace"])
                 from coframe.viewer.sources.live import LiveSource  # noqa: PLC0415 - recordings need no middleware
 
-                viewer.set_source(LiveSource(node, own=True))
+                follow = parameter_flag("use_sim_time") if use_sim_time is None else use_sim_time
+                viewer.set_source(LiveSource(node, own=True, use_sim_time=follow))
                 if control:
                     from coframe.cli.view_control import NodeControl  # noqa: PLC0415 - slow import
 

@@ -3,14 +3,16 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
+import logging
 import secrets
 import time
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from coframe.errors import ViewerError
+from coframe.errors import ViewerError, WireError
+from coframe.time import SECOND
 from coframe.viewer._findings import FindingsWatcher
 from coframe.viewer._uploads import Uploads
 from coframe.viewer.displays.rows import displayable
@@ -24,6 +26,7 @@ from coframe.viewer.scene.scene import Scene
 from coframe.viewer.scripting.callbacks import CallbackThread
 from coframe.viewer.scripting.nodes import NodeStore
 from coframe.viewer.scripting.widgets import WidgetStore
+from coframe.viewer.sources.topic_messages import LiveMessages
 from coframe.viewer.tools.publisher import ToolPublisher
 
 if TYPE_CHECKING:
@@ -38,10 +41,14 @@ if TYPE_CHECKING:
 
 __all__ = ["FRAME_TIMEOUT", "ViewerState"]
 
+_logger = logging.getLogger("coframe.viewer")
+
 # Seconds between refreshes of the tree structure and of the topics. Large trees are refreshed less often, so that
 # refreshing takes at most the given share of the time.
 STRUCTURE_PERIOD, TOPICS_PERIOD = 0.2, 1.0
 STRUCTURE_SHARE = 0.005
+# A topic is silent after this many of its periods without a message, and at least this many seconds.
+SILENT_PERIODS, MIN_SILENCE = 10, 3.0
 # A float64 is exact up to 2**53 nanoseconds, which is 104 days.
 _MAX_OFFSET = 2**52
 _MAX_PREPARED_REPLAYS = 8
@@ -73,11 +80,13 @@ class ViewerState:
         joint_states: str = JOINT_STATES,
         can_open: bool = False,
     ) -> None:
-        self.edition = 0  # Increases when the source or its title changes.
+        self.edition = 0  # Increases when the source or its title changes, and when everything starts again.
+        self.restart_reason = ""  # Why everything started again last.
+        self.restarts = 0
         self.source = source
         self.meshes = MeshTable(lambda _name: None) if meshes is None else meshes
         self.descriptions = RobotDescriptions(robot, _description_topics(rviz), self.meshes)
-        self.scene = Scene(source.buffer, ages=source.mode == "live")
+        self.scene = _scene_of(source)
         self.findings = FindingsWatcher()
         self.panels = Panels(source)
         self.callbacks = CallbackThread()
@@ -112,7 +121,7 @@ class ViewerState:
         self.source = source
         self._open = {}  # Clients release the messages of the previous source when they start from scratch.
         self.descriptions.restart()
-        self.scene = Scene(source.buffer, ages=source.mode == "live")
+        self.scene = _scene_of(source)
         self.origin = time.time_ns()
         self._structure_due = self._topics_due = 0.0
         self.refresh()
@@ -153,6 +162,21 @@ class ViewerState:
             for number, source in reversed(self._recent.items())
         ]
 
+    def restart(self, reason: str) -> None:
+        """Start again without the data received so far, for example after time has jumped back.
+
+        Args:
+            reason: What the pages show.
+        """
+        _logger.info("%s; the viewer starts again", reason)
+        self.source.restart()
+        self.scene.restart()
+        self.panels.restart()
+        self._open = {}
+        self.restart_reason = reason
+        self.restarts += 1
+        self.edition += 1
+
     def set_title(self, title: str) -> None:
         """Change the title of the page."""
         self.source.title = title
@@ -175,6 +199,8 @@ class ViewerState:
             self.scene.refresh()
             spent = time.monotonic() - now
             self._structure_due = now + max(STRUCTURE_PERIOD, spent / STRUCTURE_SHARE)
+            if reason := self.source.watch(self.scene.newest):
+                self.restart(reason)
             self._choose_origin()
             self.descriptions.refresh(self.source, self.executor)
         if now >= self._topics_due:
@@ -187,13 +213,38 @@ class ViewerState:
         """The first and the last stamp in nanoseconds; None while there is no data."""
         return self.source.span or self.scene.span
 
+    def silence(self) -> float | None:
+        """Return how many seconds ago the last data arrived; None if nothing arrives regularly."""
+        if self.source.mode != "live" or self.source.clock == "paused":
+            return None
+        now = time.monotonic_ns()
+        silences = [] if (moving := self.scene.silence()) is None else [moving]
+        for shared in self._users.values():
+            messages = shared.messages
+            if isinstance(messages, LiveMessages) and messages.period:
+                silences.append((now - messages.received_at) / SECOND)
+        return min(silences, default=None)
+
+    def topic_silence(self, messages: TopicMessages) -> float | None:
+        """Return for how many seconds a topic with regular messages has had none; None while they arrive."""
+        if not isinstance(messages, LiveMessages) or not messages.period or self.source.clock == "paused":
+            return None
+        silence = (time.monotonic_ns() - messages.received_at) / SECOND
+        return silence if silence > max(MIN_SILENCE, SILENT_PERIODS * messages.period / SECOND) else None
+
     def relative_span(self) -> tuple[int, int] | None:
         """Return the first and the last stamp relative to the origin."""
         span = self.span
         return None if span is None else (span[0] - self.origin, span[1] - self.origin)
 
     def open(self, topic: str) -> TopicMessages | None:
-        """Return the messages on a topic, which all clients share, or None if the topic does not exist."""
+        """Return the messages on a topic, which all clients share, or None if the topic does not exist.
+
+        Raises:
+            ViewerError: The name of the topic is not valid.
+            WireError: The middleware cannot create the subscription.
+        """
+        topic = self.source.resolve(topic)
         shared = self._open.get(topic)
         if shared is None:
             messages = self.source.open(topic)
@@ -212,11 +263,16 @@ class ViewerState:
             self._open = {topic: one for topic, one in self._open.items() if one is not shared}
             messages.close()
 
-    @contextmanager
+    @contextlib.contextmanager
     def opened(self, topics: Iterable[str]) -> Iterator[dict[str, TopicMessages]]:
         """Open the messages of those topics that exist, and release them at the end."""
-        found = {topic: messages for topic in dict.fromkeys(topics) if (messages := self.open(topic)) is not None}
+        found: dict[str, TopicMessages] = {}
         try:
+            for topic in dict.fromkeys(topics):
+                # A topic that cannot be opened is missing in a replay; the others are recorded.
+                with contextlib.suppress(ViewerError, WireError):
+                    if (messages := self.open(topic)) is not None:
+                        found[topic] = messages
             yield found
         finally:
             for messages in found.values():
@@ -310,6 +366,10 @@ class ViewerState:
         span = self.span
         if span is not None and abs(span[1] - self.origin) > _MAX_OFFSET:
             self.origin = span[1]
+
+
+def _scene_of(source: ViewerSource) -> Scene:
+    return Scene(source.buffer, ages=source.mode == "live", clock=source.running)
 
 
 def _description_topics(rviz: RvizConfig | None) -> list[str]:

@@ -25,6 +25,7 @@ from coframe.viewer.rviz.config import RvizConfig
 from coframe.viewer.scripting.gui_api import GuiApi
 from coframe.viewer.scripting.scene_api import SceneApi
 from coframe.viewer.sources.source import BufferSource
+from coframe.viewer.sources.topic_names import VIEWER_NODE, NodeName
 from coframe.viewer.sources.transforms import buffer_of_transform
 
 if TYPE_CHECKING:
@@ -217,6 +218,7 @@ def start_viewer(
     mesh_roots: Iterable[str | os.PathLike[str]] = (),
     host: str = "127.0.0.1",
     port: int | None = None,
+    node: NodeName = VIEWER_NODE,
 ) -> Viewer:
     """Start a viewer before its source is available, because browsers take a while to start.
 
@@ -232,12 +234,13 @@ def start_viewer(
         mesh_roots: Folders below which meshes may be fetched.
         host: The address to listen on.
         port: The TCP port to listen on; see :func:`show`.
+        node: The node relative to which names of topics are resolved.
 
     Raises:
         ViewerError: A package is missing, a file cannot be read, or the server cannot listen on the address.
         RobotDescriptionError: The robot description is invalid.
     """
-    make_source = partial(BufferSource, Buffer(), title, mode)
+    make_source = partial(BufferSource, Buffer(), title, mode, node)
     roots = [Path(root) for root in mesh_roots]
     description = None if robot is None else load(robot, arguments=robot_arguments, packages=roots)
     return _viewer(make_source, fixed, rviz, description, roots, host, port, can_open=True)

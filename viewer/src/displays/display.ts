@@ -24,6 +24,13 @@ export interface DisplayConfig {
   enabled: boolean;
   topic: string | null;
   options: JsonObject;
+  /** Whether the display itself is enabled; in a disabled group, `enabled` is false nevertheless. */
+  checked?: boolean;
+  /** The place in the .rviz file, and that of the group that contains the display. */
+  source?: string;
+  group?: string;
+  /** Whether the page added the display by itself next to those of a file. It is not saved in the file. */
+  added?: boolean;
 }
 
 export interface Context {

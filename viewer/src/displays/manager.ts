@@ -10,6 +10,7 @@ import type {
   RobotModel,
   RvizConfiguration,
   RvizDisplay,
+  RvizGroup,
   DisplayOptions,
   DisplayTopic,
 } from "../protocol/messages";
@@ -27,9 +28,13 @@ import { TfDisplay } from "./tf";
 
 export class Displays {
   list: Display[] = [];
+  /** The groups of the .rviz file. */
+  groups: RvizGroup[] = [];
   private readonly meshes = new Meshes();
   private readonly context: Context;
   private readonly listeners: (() => void)[] = [];
+  /** Whether the displays are those of an .rviz file. */
+  private fromFile = false;
   private nextId = 1;
   /** Whether new topics are displayed automatically, until the user or a file changes the list. */
   private automatic = true;
@@ -49,7 +54,11 @@ export class Displays {
       replayed: () => model.hello?.mode === "replay",
       redraw: () => view.refresh(),
     };
-    model.on("hello", (hello) => this.start(hello.rviz));
+    model.on("hello", (hello) => {
+      if (hello.restart !== null)
+        for (const display of this.list) if (display instanceof MessageDisplay) display.clear();
+      this.start(hello.rviz);
+    });
     model.on("topics", (topics) => this.offer(topics));
     model.on("robot", (robot) => this.setRobot(robot));
     model.on("message", (message) => this.receive(message));
@@ -105,7 +114,35 @@ export class Displays {
     this.changed();
   }
 
-  setEnabled(display: Display, enabled: boolean): void {
+  /** Enables or disables a display itself. In a disabled group, it stays hidden. */
+  setEnabled(display: Display, checked: boolean): void {
+    display.config.checked = checked;
+    this.setShown(display, checked && this.groupsEnabled(display.config.group));
+    this.changed();
+  }
+
+  setGroupEnabled(group: RvizGroup, enabled: boolean): void {
+    group.enabled = enabled;
+    for (const display of this.list) {
+      const shown = (display.config.checked ?? display.config.enabled) && this.groupsEnabled(display.config.group);
+      display.config.checked ??= display.config.enabled;
+      if (shown !== display.config.enabled) this.setShown(display, shown);
+    }
+    this.changed();
+  }
+
+  /** Whether a group and all groups that contain it are enabled. */
+  groupsEnabled(source: string | undefined): boolean {
+    let at = source;
+    for (let depth = 0; at && depth <= this.groups.length; depth++) {
+      const group = this.groups.find((other) => other.source === at);
+      if (group && !group.enabled) return false;
+      at = group?.group;
+    }
+    return true;
+  }
+
+  private setShown(display: Display, enabled: boolean): void {
     display.config.enabled = enabled;
     display.object.visible = enabled;
     if (display instanceof MessageDisplay) {
@@ -115,11 +152,11 @@ export class Displays {
         display.clear();
       }
     }
-    this.changed();
   }
 
   /** Applies an option that the panel has changed in the configuration of a display. */
   optionChanged(display: Display): void {
+    delete display.config.added;
     if (display instanceof MessageDisplay) this.resubscribeIfNeeded(display);
     display.restyle();
     this.changed();
@@ -134,8 +171,10 @@ export class Displays {
   /** Replaces all displays by those of a file. */
   apply(rviz: RvizConfiguration): void {
     this.automatic = false;
+    this.fromFile = true;
     for (const display of this.list) this.discard(display);
     this.list = [];
+    this.groups = (rviz.groups ?? []).map((group) => ({ ...group }));
     for (const display of rviz.displays) this.create({ ...display, topic: display.topic ?? null });
     for (const robot of this.model.robots.values()) this.assignRobot(robot);
     this.changed();
@@ -143,7 +182,12 @@ export class Displays {
 
   /** The displays in the format of .rviz files. */
   save(): RvizDisplay[] {
-    return this.list.map(({ config }) => ({ ...config }));
+    return this.list
+      .filter(({ config }) => !config.added)
+      .map(({ config: { added: _added, ...config } }) => {
+        const checked = config.checked ?? config.enabled;
+        return { ...config, enabled: checked, checked };
+      });
   }
 
   /** The topics of enabled displays, with the options of their subscriptions. */
@@ -161,7 +205,11 @@ export class Displays {
     if (rviz) this.apply(rviz);
     else if (Array.isArray(last) && last.length > 0 && last.every(isConfig)) {
       this.automatic = false;
-      for (const config of last) this.create(config);
+      this.groups = remembered<RvizGroup[]>("groups", []).filter(isGroup);
+      for (const config of last) {
+        const enabled = config.enabled && this.groupsEnabled(config.group);
+        this.create({ ...config, checked: config.enabled, enabled });
+      }
       this.changed();
     } else {
       this.create({ class: "Grid", name: "Grid", enabled: true, topic: null, options: {} });
@@ -245,7 +293,8 @@ export class Displays {
       this.robots.find((other) => !other.robot);
     if (display) display.setRobot(robot);
     else {
-      const config = { class: "RobotModel", name: this.freeName("RobotModel"), enabled: true, options: {} };
+      const name = this.freeName("RobotModel");
+      const config = { class: "RobotModel", name, enabled: true, options: {}, added: this.fromFile };
       const made = this.create({ ...config, topic: robot.description_topic });
       if (made instanceof RobotDisplay) made.setRobot(robot);
     }
@@ -303,7 +352,10 @@ export class Displays {
 
   private changed(): void {
     this.chooseResolutions();
-    if (!this.automatic) remember("displays", this.save());
+    if (!this.automatic) {
+      remember("displays", this.save());
+      remember("groups", this.groups);
+    }
     this.applyTf();
     this.view.refresh();
     this.notify();
@@ -355,6 +407,16 @@ export class Displays {
   private notify(): void {
     for (const listener of this.listeners) listener();
   }
+}
+
+function isGroup(value: unknown): value is RvizGroup {
+  const group = value as Partial<RvizGroup> | null;
+  return (
+    typeof group?.source === "string" &&
+    typeof group.group === "string" &&
+    typeof group.name === "string" &&
+    typeof group.enabled === "boolean"
+  );
 }
 
 function isConfig(value: unknown): value is DisplayConfig {

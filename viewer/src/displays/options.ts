@@ -88,9 +88,12 @@ export class Options<C extends DisplayClass = DisplayClass> {
     let at = this.values;
     for (const part of path) {
       const inner = at[part];
-      at = at[part] = isObject(inner) ? inner : {};
+      if (isObject(inner)) at = inner;
+      else at = at[part] = inner === undefined || inner === null ? {} : { Value: inner };
     }
-    at[last] = value;
+    const earlier = at[last];
+    if (isObject(earlier)) earlier["Value"] = value;
+    else at[last] = value;
   }
 
   private sent(spec: OptionSpec): Json {
@@ -112,10 +115,14 @@ export class Options<C extends DisplayClass = DisplayClass> {
     }
   }
 
+  /** RViz writes an option that has options of its own as an object, with its value as "Value". */
   private value(key: string): Json | undefined {
     let at: Json | undefined = this.values;
-    for (const part of key.split("/")) at = isObject(at) ? at[part] : undefined;
-    return at;
+    for (const [k, part] of key.split("/").entries()) {
+      if (!isObject(at)) return k > 0 && part === "Value" ? at : undefined;
+      at = at[part];
+    }
+    return isObject(at) ? at["Value"] : at;
   }
 
   private spec<K extends OptionSpec["kind"]>(key: string, kind: K): Spec<K> {

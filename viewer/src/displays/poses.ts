@@ -7,6 +7,9 @@ import { arrowGeometry, instances, poseAxes } from "./arrows";
 import { covarianceShapes } from "./covariance";
 import { MessageDisplay } from "./display";
 
+type ShapeNumber =
+  "Alpha" | "Axes Length" | "Axes Radius" | "Head Length" | "Head Radius" | "Shaft Length" | "Shaft Radius";
+
 export class PosesDisplay extends MessageDisplay<Shapes, "Pose" | "PoseArray" | "PoseWithCovariance" | "Odometry"> {
   protected build({ description, payload }: Shapes): THREE.Object3D {
     const group = new THREE.Group();
@@ -22,7 +25,7 @@ export class PosesDisplay extends MessageDisplay<Shapes, "Pose" | "PoseArray" | 
       return group;
     }
     group.add(this.shape(newest, 1));
-    if (count > 1) group.add(trail(poses, this.options.color("Color")));
+    if (count > 1) group.add(trail(poses, this.color));
     return group;
   }
 
@@ -32,19 +35,29 @@ export class PosesDisplay extends MessageDisplay<Shapes, "Pose" | "PoseArray" | 
     return { min: this.inFixed(box.min), max: this.inFixed(box.max) };
   }
 
+  /** RViz nests the options of the shape in files of Odometry displays. */
+  private get isNested(): boolean {
+    return this.kind === "Odometry";
+  }
+
+  private get color(): string {
+    return this.options.color(this.isNested ? "Shape/Color" : "Color");
+  }
+
   private shape(poses: Float32Array, scale: number): THREE.Object3D {
-    const o = this.options;
-    if (o.choice("Shape") === "Axes")
-      return poseAxes(poses, this.context.palette(), o.number("Axes Length"), o.number("Axes Radius"));
+    const number = (key: ShapeNumber): number =>
+      this.isNested ? this.options.number(`Shape/${key}`) : this.options.number(key);
+    if (this.options.choice(this.isNested ? "Shape/Value" : "Shape") === "Axes")
+      return poseAxes(poses, this.context.palette(), number("Axes Length"), number("Axes Radius"));
     const geometry = arrowGeometry({
-      shaftLength: o.number("Shaft Length"),
-      shaftRadius: o.number("Shaft Radius"),
-      headLength: o.number("Head Length"),
-      headRadius: o.number("Head Radius"),
+      shaftLength: number("Shaft Length"),
+      shaftRadius: number("Shaft Radius"),
+      headLength: number("Head Length"),
+      headRadius: number("Head Radius"),
     });
-    const alpha = o.number("Alpha");
+    const alpha = number("Alpha");
     const material = new THREE.MeshLambertMaterial({
-      color: o.color("Color"),
+      color: this.color,
       transparent: alpha < 1,
       opacity: alpha,
     });

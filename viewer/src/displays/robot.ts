@@ -6,10 +6,27 @@ import { hasImage, materialsOf, MISSING_TEXTURE, type Meshes } from "../scene/me
 import type { FramePoses } from "../scene/frame_poses";
 import type { PickedGroup, PickedPart } from "../model/picked";
 import type { Hit } from "../scene/picking";
-import type { FrameUpdate, RobotLink, RobotModel, RobotShape, Vector } from "../protocol/messages";
+import {
+  FrameState,
+  type FrameUpdate,
+  type RobotLink,
+  type RobotModel,
+  type RobotShape,
+  type Vector,
+} from "../protocol/messages";
+import * as format from "../util/format";
 import { IDENTITY, type Pose } from "../util/math";
 import { Display, isInside, MAX_LISTED_PARTS, release, type Context, type DisplayConfig } from "./display";
 import { Kinematics, type KnownPose } from "./robot_kinematics";
+
+/** How links look whose transforms are no longer received. */
+const STALE_MATERIAL = new THREE.MeshLambertMaterial({
+  color: "#8b929a",
+  transparent: true,
+  opacity: 0.35,
+  depthWrite: false,
+  side: THREE.DoubleSide,
+});
 
 /** Shinier surfaces would be white in the light of the scene. */
 const MAX_SHININESS = 20;
@@ -27,6 +44,8 @@ export class RobotDisplay extends Display<"RobotModel"> {
   loading = 0;
   private readonly problems: string[] = [];
   private origin: readonly number[] = [0, 0, 0];
+  /** The links whose transforms are no longer received. */
+  private readonly stale = new Set<string>();
 
   constructor(
     id: number,
@@ -72,6 +91,7 @@ export class RobotDisplay extends Display<"RobotModel"> {
       meshes,
       textures,
       loading: this.loading,
+      stale: [...this.stale],
       visible,
       links: this.linkPoses(),
     };
@@ -131,6 +151,9 @@ export class RobotDisplay extends Display<"RobotModel"> {
 
   private rebuild(): void {
     const robot = this.robot as RobotModel;
+    const stale = [...this.stale];
+    this.stale.clear();
+    for (const name of stale) this.markLink(name); // So that the own materials are freed.
     release(this.model);
     this.model.removeFromParent();
     this.problems.splice(0, Infinity, ...robot.problems);
@@ -177,6 +200,7 @@ export class RobotDisplay extends Display<"RobotModel"> {
         if (colored) this.paint(object);
         else setMaterial(object, this.material(robot, shape));
         parent.add(object);
+        for (const name of this.stale) this.markLink(name);
       })
       .catch((error: unknown) => {
         if (model === this.model) this.problems.push(error instanceof Error ? error.message : String(error));
@@ -240,11 +264,56 @@ export class RobotDisplay extends Display<"RobotModel"> {
     const first = this.problems[0];
     const more = this.problems.length > 1 ? ` (and ${this.problems.length - 1} more)` : "";
     if (first) this.status = { state: "error", text: first + more };
+    else if (this.stale.size > 0) this.status = { state: "error", text: this.staleText() };
     else if (this.loading > 0) this.status = { state: "waiting", text: `Loading ${this.loading} meshes` };
     else this.status = { state: "ok", text: [this.robot?.name ?? "", ...(this.robot?.warnings ?? [])].join("; ") };
   }
 
-  override setPoses(framePoses: FramePoses, _update: FrameUpdate): void {
+  private staleText(): string {
+    const { stats, forest } = this.context.model;
+    const prefix = this.options.text("TF Prefix");
+    const ages = [...this.stale].map((link) => stats?.frames[forest.index.get(prefix + link) ?? -1]?.age ?? 0);
+    const age = Math.max(0, ...ages);
+    const since = age > 0 ? ` for ${format.duration(age)}` : "";
+    return `No transform received${since}: ${this.stale.size} of ${this.links.size} links`;
+  }
+
+  /** Shows which links are stale: the transform of their frame, or of a frame above it, is no longer received. */
+  private updateStale(framePoses: FramePoses, update: FrameUpdate, prefix: string): void {
+    const { forest } = this.context.model;
+    if (update.revision !== forest.revision) return;
+    let changed = false;
+    for (const name of this.links.keys()) {
+      const i = forest.index.get(prefix + name) ?? -1;
+      const state = update.states[i];
+      const isStale =
+        i >= 0 && (state === FrameState.stale || state === FrameState.gone || (framePoses.fade[i] ?? 0) > 0);
+      if (isStale === this.stale.has(name)) continue;
+      changed = true;
+      if (isStale) this.stale.add(name);
+      else this.stale.delete(name);
+      this.markLink(name);
+    }
+    if (changed || this.stale.size > 0) this.updateStatus();
+  }
+
+  /** Draws a link in gray if it is stale, otherwise in its own colors. */
+  private markLink(name: string): void {
+    const isStale = this.stale.has(name);
+    this.links.get(name)?.traverse((part) => {
+      const mesh = part as THREE.Mesh;
+      if (!mesh.isMesh) return;
+      if (isStale && mesh.material !== STALE_MATERIAL) {
+        mesh.userData.material = mesh.material;
+        mesh.material = STALE_MATERIAL;
+      } else if (!isStale && mesh.material === STALE_MATERIAL) {
+        mesh.material = mesh.userData.material as THREE.Material;
+        delete mesh.userData.material;
+      }
+    });
+  }
+
+  override setPoses(framePoses: FramePoses, update: FrameUpdate): void {
     const { robot, kinematics } = this;
     if (!robot || !kinematics) return;
     const prefix = this.options.text("TF Prefix");
@@ -258,6 +327,7 @@ export class RobotDisplay extends Display<"RobotModel"> {
         text: `No transform from ${prefix}${robot.root}; the robot is drawn at the fixed frame`,
       };
     else if (root && this.status.state === "waiting" && this.loading === 0) this.updateStatus();
+    this.updateStale(framePoses, update, prefix);
     // Without frames, the robot is drawn at the fixed frame, so that its sliders can be used.
     const start = root ?? IDENTITY;
     for (const [name, pose] of kinematics.poses(start, this.positions, this.overridesFrames ? undefined : known)) {

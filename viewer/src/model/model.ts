@@ -22,6 +22,7 @@ import type {
   PartDetails,
   ProblemReport,
   PublishResult,
+  Pulse,
   RemovedNodes,
   RemovedWidgets,
   Relation,
@@ -79,6 +80,9 @@ export interface ModelEvents {
   /** A request of a part of the page to inspect a topic. */
   inspect: string;
   connected: boolean;
+  /** Whether the server has sent nothing for a while. */
+  silent: boolean;
+  pulse: Pulse;
   fixed: string;
   selection: Selection;
   visibility: undefined;
@@ -170,6 +174,10 @@ export class Model extends Emitter<ModelEvents> {
   robots = new Map<string | number, RobotModel>();
   fixed = "";
   connected = false;
+  /** Whether an open connection has delivered nothing for a while. */
+  silent = false;
+  /** The last pulse of the server; null without a server. */
+  pulse: Pulse | null = null;
   selection: Selection = { frame: null, reference: null };
   hidden = new Set<string>();
   solo: string | null = null;

@@ -6,6 +6,9 @@ import * as format from "../util/format";
 import type { Model } from "../model/model";
 import { remember, remembered } from "../util/storage";
 
+/** Seconds without data after which the page no longer says "Live". */
+const MAX_SILENCE_S = 3;
+
 type MenuItem = readonly [text: string, detail: string, act: () => void];
 
 export interface BarActions {
@@ -73,7 +76,8 @@ export class Bar {
     });
     model.on("tree", () => this.refill());
     model.on("fixed", () => this.refill());
-    for (const event of ["connected", "clock", "hello"] as const) model.on(event, () => this.showState());
+    for (const event of ["connected", "silent", "pulse", "clock", "hello"] as const)
+      model.on(event, () => this.showState());
     this.showState();
     this.refill();
   }
@@ -98,18 +102,22 @@ export class Bar {
   }
 
   private showState(): void {
-    const { connected, hello, clock } = this.model;
-    const [state, text] =
-      hello?.mode === "replay"
-        ? ["paused", "Replay"]
-        : !connected
-          ? ["off", "Not connected"]
-          : clock.live
-            ? ["live", hello?.mode === "recording" ? "Recording" : "Live"]
-            : ["paused", clock.playing ? "Playing" : "Paused"];
+    const [state, text] = connectionState(this.model);
     this.pill.dataset.state = state;
     setText(this.state, text);
   }
+}
+
+/** What the page shows of the connection and of the data; "Live" means that data arrives. */
+function connectionState({ connected, silent, hello, clock, pulse }: Model): [state: string, text: string] {
+  if (hello?.mode === "replay") return ["paused", "Replay"];
+  if (!connected) return ["off", "Not connected"];
+  if (silent) return ["off", "No response"];
+  if (!clock.live) return ["paused", clock.playing ? "Playing" : "Paused"];
+  if (hello?.mode === "recording") return ["live", "Recording"];
+  if (pulse?.clock === "paused") return ["paused", "Simulation paused"];
+  const silence = pulse?.silence ?? 0;
+  return silence > MAX_SILENCE_S ? ["paused", `No data for ${format.duration(Math.round(silence))}`] : ["live", "Live"];
 }
 
 function menu(iconName: "chart" | "download" | "sun", label: string, items: readonly MenuItem[]): HTMLElement {

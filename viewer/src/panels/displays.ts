@@ -9,6 +9,7 @@ import { DISPLAYS, FIXED_FRAME, type OptionSpec } from "../generated/displays";
 import { AddDisplay } from "./add_display";
 import { fillSelect, h, iconButton, setText, shorten } from "../util/dom";
 import type { Model } from "../model/model";
+import type { RvizGroup } from "../protocol/messages";
 
 interface Card {
   display: Display;
@@ -27,6 +28,7 @@ export class DisplaysPanel {
   readonly element: HTMLElement;
   private readonly cards = h("div");
   private readonly omitted = h("button", { type: "button", class: "small link", id: "omitted", hidden: true });
+  private readonly groupBodies = new Map<RvizGroup, HTMLElement>();
   private readonly cardsById = new Map<number, Card>();
 
   constructor(
@@ -71,13 +73,46 @@ export class DisplaysPanel {
         card.element.remove();
         this.cardsById.delete(id);
       }
+    const placed = new Map<HTMLElement, number>();
     for (const display of this.displays.list) {
       const card = this.cardsById.get(display.id) ?? this.makeCard(display);
-      const place = this.cards.children[this.displays.list.indexOf(display)];
-      if (place !== card.element) this.cards.insertBefore(card.element, place ?? null);
+      this.place(card.element, display.config.group, placed);
     }
+    for (const [group, body] of this.groupBodies)
+      if (!this.displays.groups.includes(group)) {
+        body.parentElement?.remove();
+        this.groupBodies.delete(group);
+      }
     this.updateCards();
     this.showOmitted();
+  }
+
+  /** Places a card in the order of the list, below the head of its group, which appears with its first display. */
+  private place(card: HTMLElement, source: string | undefined, placed: Map<HTMLElement, number>): void {
+    const group = source ? this.displays.groups.find((other) => other.source === source) : undefined;
+    const body = group ? this.groupBody(group) : this.cards;
+    if (group && !placed.has(body)) this.place(body.parentElement as HTMLElement, group.group, placed);
+    const at = placed.get(body) ?? 0;
+    const there = body.children[at] ?? null;
+    if (there !== card) body.insertBefore(card, there);
+    placed.set(body, at + 1);
+  }
+
+  /** The element that contains the cards of a group, which is made when it is first used. */
+  private groupBody(group: RvizGroup): HTMLElement {
+    const known = this.groupBodies.get(group);
+    if (known) return known;
+    const box = h("input", {
+      type: "checkbox",
+      aria: { label: `Show the group ${group.name}` },
+      on: { change: () => this.displays.setGroupEnabled(group, box.checked) },
+    });
+    box.checked = group.enabled;
+    const body = h("div", { class: "group-body" });
+    const head = h("label", { class: "group-head" }, box, h("span", {}, shorten(group.name, 60)));
+    h("div", { class: "display-group", data: { group: group.name } }, head, body);
+    this.groupBodies.set(group, body);
+    return body;
   }
 
   private makeCard(display: Display): Card {
@@ -129,8 +164,9 @@ export class DisplaysPanel {
     for (const { display, element, name, box, head, detail, status } of this.cardsById.values()) {
       setText(name, shorten(display.config.name, 60));
       element.dataset.display = display.config.name;
+      element.classList.toggle("in-disabled-group", !this.displays.groupsEnabled(display.config.group));
       box.setAttribute("aria-label", `Show ${display.config.name}`);
-      box.checked = display.config.enabled;
+      box.checked = display.config.checked ?? display.config.enabled;
       const { state, text } = display.config.enabled ? display.status : { state: "ok", text: "" };
       if (head.dataset.state !== state) head.dataset.state = state;
       const { kind } = display;

@@ -10,6 +10,11 @@ import type { View } from "../scene/view";
 /** Messages appear only if the server has not responded within this time. */
 const MESSAGE_DELAY_MS = 900;
 const FPS_INTERVAL_MS = 1000;
+const SILENT =
+  "The server has stopped responding, or the network is interrupted. The scene shows the last data received.";
+const NO_GRAPHICS =
+  "The browser has withdrawn the graphics card, so the scene cannot be drawn. " +
+  "If it does not return within a few seconds, reload the page or close other tabs with 3D content.";
 
 export class Overlay {
   private readonly orbit: HTMLButtonElement;
@@ -23,6 +28,8 @@ export class Overlay {
   private readonly following = h("div", { class: "hint", hidden: true });
   private readonly fps = h("div", { class: "fps numbers" });
   private readonly empty: HTMLElement;
+  private shownMode: CameraMode = "orbit";
+  private emptyClosed = false;
   private noticeTimer = 0;
   private fpsUpdated = 0;
 
@@ -59,6 +66,7 @@ export class Overlay {
       h("p", {}, "To see a moving robot, run this in another terminal:"),
       h("code", {}, "coframe demo"),
       h("p", {}, "Or start your own broadcasters with the same ROS_DOMAIN_ID."),
+      iconButton("close", "Close", () => this.closeEmpty()),
     );
     root.append(
       this.hint,
@@ -79,7 +87,8 @@ export class Overlay {
       this.fps,
       this.empty,
     );
-    model.on("connected", (connected) => this.updateNotice(connected));
+    for (const event of ["connected", "silent"] as const) model.on(event, () => this.updateNotice());
+    view.renderer.onLost(() => this.updateNotice());
     for (const event of ["tree", "robot"] as const) model.on(event, () => this.updateEmpty());
     model.on("hello", () => setTimeout(() => this.updateEmpty(), MESSAGE_DELAY_MS));
     model.on("selection", () => this.updateButtons());
@@ -116,7 +125,8 @@ export class Overlay {
 
   private updateButtons(): void {
     const { camera } = this.view.renderer;
-    this.orbit.setAttribute("aria-pressed", String(camera.mode === "orbit"));
+    this.shownMode = camera.mode;
+    this.orbit.setAttribute("aria-pressed", String(camera.mode !== "top"));
     this.top.setAttribute("aria-pressed", String(camera.mode === "top"));
     this.follow.setAttribute("aria-pressed", String(this.view.followed !== null));
     this.follow.disabled = this.view.followed === null && this.model.selection.frame === null;
@@ -136,7 +146,8 @@ export class Overlay {
     this.following.hidden = followed === null;
     if (followed !== null) setText(this.following, `Following ${shorten(followed, 40)}`);
     const pressed = String(followed !== null);
-    if (this.follow.getAttribute("aria-pressed") !== pressed) this.updateButtons();
+    const changed = this.shownMode !== this.view.renderer.camera.mode;
+    if (changed || this.follow.getAttribute("aria-pressed") !== pressed) this.updateButtons();
     this.another.disabled = this.view.panes.count >= MAX_PANES;
     const now = performance.now();
     if (now - this.fpsUpdated < FPS_INTERVAL_MS) return;
@@ -144,16 +155,24 @@ export class Overlay {
     setText(this.fps, `${this.view.renderer.fps} fps`);
   }
 
-  private updateEmpty(): void {
-    const { forest, hello, robots } = this.model;
-    this.empty.hidden = forest.frames.length > 0 || !hello || robots.size > 0;
+  private closeEmpty(): void {
+    this.emptyClosed = true;
+    this.updateEmpty();
   }
 
-  private updateNotice(connected: boolean): void {
+  private updateEmpty(): void {
+    const { forest, hello, robots } = this.model;
+    this.empty.hidden = this.emptyClosed || forest.frames.length > 0 || !hello || robots.size > 0;
+  }
+
+  private updateNotice(): void {
+    const { connected, silent } = this.model;
     if (connected) {
       clearTimeout(this.noticeTimer);
       this.noticeTimer = 0;
-      this.notice.hidden = true;
+      const text = silent ? SILENT : this.view.renderer.lost ? NO_GRAPHICS : "";
+      this.notice.hidden = !text;
+      if (text) setText(this.notice, text);
       return;
     }
     // Each failed attempt to reconnect calls this again; only the first one starts the timer.

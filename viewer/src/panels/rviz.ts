@@ -8,17 +8,35 @@ import type { Model } from "../model/model";
 import type { ToolSettings } from "../model/tools";
 import type { JsonObject, RvizConfiguration, RvizView } from "../protocol/messages";
 import type { Theme } from "../util/theme";
+import { remember, remembered } from "../util/storage";
 import { toast } from "../util/toast";
 import type { View } from "../scene/view";
 
+/** How many parts of a file are listed. */
+const MAX_LISTED = 500;
 const MAX_FILE_SIZE = 900_000; // bytes
 
 export class RvizPanel {
   readonly element: HTMLElement;
   private readonly unknown = h("ul", { class: "list", id: "unknown" });
   private readonly unknownSection: HTMLElement;
+  private readonly views = h("div", { class: "buttons", id: "file-views" });
+  private readonly viewsSection = h(
+    "div",
+    { class: "section", hidden: true },
+    h("h3", {}, "Saved views of the file"),
+    this.views,
+  );
+  private readonly ignored = h("ul", { class: "list", id: "ignored" });
+  private readonly ignoredSection: HTMLElement;
   private readonly file = h("input", { type: "file", accept: ".rviz,.yaml,.yml", hidden: true });
   private name = "coframe.rviz";
+  private started = false;
+  /** The text of the file that was opened, also in the last session with these displays; "" if none was. */
+  private source = remembered("rviz", "");
+  private loading: string | null = null;
+  /** Whether the displays are those of a file. */
+  private loaded = this.source !== "";
 
   constructor(
     private readonly model: Model,
@@ -35,6 +53,17 @@ export class RvizPanel {
       h("h3", {}, "Unsupported parts"),
       h("p", {}, "These parts of the file are not displayed. They are preserved when you save the file."),
       this.unknown,
+    );
+    this.ignoredSection = h(
+      "div",
+      { class: "section", hidden: true },
+      h("h3", {}, "Options without effect"),
+      h(
+        "p",
+        {},
+        "The viewer does not have these options, tools and panels. They are preserved when you save the file.",
+      ),
+      this.ignored,
     );
     this.element = h(
       "section",
@@ -56,12 +85,27 @@ export class RvizPanel {
           h("button", { type: "button", disabled: !live, id: "save-rviz", on: { click: () => this.save() } }, "Save"),
         ),
       ),
+      this.viewsSection,
       this.unknownSection,
+      this.ignoredSection,
     );
     model.on("hello", (hello) => {
-      if (hello.rviz) this.applyGlobals(hello.rviz);
+      // Later ones, for example after a jump back in time, must not move the camera.
+      if (hello.rviz && !this.started) {
+        this.loaded = true;
+        this.source = "";
+        remember("rviz", "");
+        this.applyGlobals(hello.rviz);
+      } else if (!hello.rviz && this.source) {
+        // A server that was started again, or another connection, does not have the file, which it needs for saving.
+        model.send({ type: "load_rviz", text: this.source, restore: true });
+      }
+      this.started = true;
     });
     model.on("rviz", (rviz) => {
+      this.loaded = true;
+      if (this.loading !== null) this.source = this.loading;
+      remember("rviz", this.source);
       displays.apply(rviz);
       this.applyGlobals(rviz);
       toast(`Loaded ${rviz.displays.length} displays.`, null, "info");
@@ -72,19 +116,23 @@ export class RvizPanel {
   }
 
   save(): void {
-    const background = this.theme.palette().background;
-    const global: JsonObject = {
-      fixed_frame: this.model.fixed,
-      background: [1, 3, 5].map((at) => Number.parseInt(background.slice(at, at + 2), 16)),
-    };
-    const tools = this.tools.save();
-    this.model.send({ type: "save_rviz", displays: this.displays.save(), global, view: { ...this.camera() }, tools });
+    // The background of the theme is not that of a file.
+    const background = this.loaded ? this.theme.background : this.theme.palette().background;
+    const global: JsonObject = { fixed_frame: this.model.fixed };
+    if (background) global.background = [1, 3, 5].map((at) => Number.parseInt(background.slice(at, at + 2), 16));
+    this.model.send({
+      type: "save_rviz",
+      displays: this.displays.save(),
+      groups: this.displays.groups,
+      global,
+      view: { ...this.camera() },
+      tools: this.tools.save(),
+    });
   }
 
   /** The view in the format of .rviz files. */
   camera(): RvizView {
-    const camera = this.view.renderer.camera.describe(this.view.followed);
-    return { class: camera.class.replace(/^.*\//, ""), options: camera.options };
+    return this.view.describeView();
   }
 
   private async load(): Promise<void> {
@@ -101,7 +149,8 @@ export class RvizPanel {
       return;
     }
     this.name = file.name;
-    this.model.send({ type: "load_rviz", text: await file.text() });
+    this.loading = await file.text();
+    this.model.send({ type: "load_rviz", text: this.loading });
   }
 
   /** Applies everything except the displays: global options, view, hidden frames and the list of unsupported parts. */
@@ -109,18 +158,15 @@ export class RvizPanel {
     const { fixed_frame: fixed, background } = rviz.global;
     if (typeof fixed === "string" && fixed) this.model.setFixed(fixed);
     this.theme.setBackground(cssColor(background ?? undefined));
-    if (rviz.view) {
-      if (this.view.renderer.camera.apply(rviz.view)) this.view.keepCamera();
-      const target = rviz.view.options["Target Frame"];
-      const name = typeof target === "string" && !target.startsWith("<") ? target : null;
-      if (name && name !== fixed) this.view.setFollowed(name);
-    }
+    if (rviz.view) this.view.setView(rviz.view, true);
+    this.listSavedViews(rviz);
     this.tools.load(rviz.tools);
     this.hideFrames(rviz);
+    this.listIgnored(rviz);
     this.unknownSection.hidden = rviz.unknown.length === 0;
     this.unknown.replaceChildren(
       ...rviz.unknown
-        .slice(0, 500)
+        .slice(0, MAX_LISTED)
         .map(({ path, class: kind, name }) =>
           h(
             "li",
@@ -130,6 +176,23 @@ export class RvizPanel {
           ),
         ),
     );
+  }
+
+  private listSavedViews(rviz: RvizConfiguration): void {
+    this.viewsSection.hidden = rviz.saved_views.length === 0;
+    const buttons = rviz.saved_views.map(({ name, view }) =>
+      h("button", { type: "button", class: "small", on: { click: () => this.view.setView(view) } }, shorten(name, 60)),
+    );
+    this.views.replaceChildren(...buttons);
+  }
+
+  private listIgnored(rviz: RvizConfiguration): void {
+    this.ignoredSection.hidden = rviz.ignored.length === 0;
+    const rows = rviz.ignored.slice(0, MAX_LISTED).map(({ path, name, value }) => {
+      const detail = shorten(`${path}: ${value}`, 120);
+      return h("li", {}, shorten(name, 80), h("div", { class: "muted mono" }, detail));
+    });
+    this.ignored.replaceChildren(...rows);
   }
 
   /** Hides the frames that the TF display disables: `Frames: {All Enabled: true, some_frame: {Value: false}}`. */

@@ -41,6 +41,7 @@ export class Timeline {
   constructor(
     root: HTMLElement,
     private readonly model: Model,
+    reset: (() => void) | null,
   ) {
     this.play = iconButton("pause", "Pause or play (Space)", () => this.toggle());
     this.live = h(
@@ -70,6 +71,7 @@ export class Timeline {
         this.play,
         iconButton("forward", "Next message (.)", () => this.step(1)),
         this.live,
+        ...(reset ? [resetButton(reset)] : []),
         this.loop,
         speed,
         h("div", { class: "scrub" }, this.canvas, this.playhead),
@@ -293,4 +295,9 @@ export class Timeline {
       event.stopPropagation();
     });
   }
+}
+
+function resetButton(reset: () => void): HTMLElement {
+  const title = "Reset (Shift r): start again without the data received so far";
+  return h("button", { type: "button", class: "small", title, id: "reset", on: { click: reset } }, "Reset");
 }

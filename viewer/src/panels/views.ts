@@ -14,7 +14,7 @@ const UPDATE_MS = 250;
 const MAX_VIEWS = 50;
 const MAX_NAME = 80;
 const DEGREES = 180 / Math.PI;
-const ANGLES = new Set(["Pitch", "Yaw", "Angle"]);
+const ANGLES = new Set(["Pitch", "Yaw", "Roll", "Angle"]);
 const START: CameraView = {
   class: "rviz_default_plugins/Orbit",
   options: { Distance: 5, "Focal Point": { X: 0, Y: 0, Z: 0 }, Pitch: 0.6, Yaw: 0.8 },
@@ -101,16 +101,11 @@ export class ViewsPanel {
   }
 
   private get current(): CameraView {
-    return this.view.renderer.camera.describe(this.view.followed);
+    return this.view.wholeView;
   }
 
   private apply(view: CameraView): void {
-    const frame = view.options["Target Frame"];
-    this.view.setFollowed(null);
-    if (!this.view.renderer.camera.apply(view)) return;
-    this.view.keepCamera();
-    if (typeof frame === "string" && !frame.startsWith("<")) this.view.setFollowed(frame);
-    this.view.refresh();
+    this.view.setView(view);
   }
 
   private update(): void {
@@ -129,7 +124,7 @@ export class ViewsPanel {
   private makeFields(paths: string[]): void {
     this.inputs.clear();
     const rows = paths.map((path) => {
-      const label = ANGLES.has(path) ? `${path} (°)` : path.replace("Focal Point/", "");
+      const label = ANGLES.has(path) ? `${path} (°)` : path.replace(/^(Focal Point|Position)\//, "");
       const input = h("input", { type: "number", step: "any", aria: { label } });
       input.addEventListener("change", () => this.set(path, input.valueAsNumber));
       this.inputs.set(path, input);

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The WebSocket to the server; opens immediately and reconnects whenever it closes. */
+/**
+ * The WebSocket to the server; opens immediately and reconnects whenever it closes or delivers nothing for long. The
+ * server sends at least one message per second.
+ */
 
 import { fatal } from "../util/fatal";
 import { toast } from "../util/toast";
@@ -9,6 +12,16 @@ import { compareVersion } from "./version";
 
 const FIRST_WAIT_MS = 250;
 const MAX_WAIT_MS = 4000;
+/** A connection that lasted this long was not closed because of what the page sent, so the next wait is short. */
+const STABLE_MS = 5000;
+/** After this long without a message, the page says so; after the second time, it opens another connection. */
+const SILENT_MS = 2200;
+const RECONNECT_MS = 9000;
+/** An attempt to connect is given up after this long. */
+const OPEN_TIMEOUT_MS = 8000;
+const CHECK_MS = 400;
+/** If a check is later than this, the page itself stood still, for example because a file was parsed. */
+const LATE_CHECK_MS = 1500;
 /** That of the server. */
 const MAX_REQUEST_BYTES = 1 << 20;
 /** The most bytes of UTF-8 of one unit of UTF-16. */
@@ -20,6 +33,10 @@ export class SocketSource implements MessageSource {
   readonly live = true;
   private socket: WebSocket | null = null;
   private wait = FIRST_WAIT_MS;
+  private opened = 0;
+  private received = 0;
+  private checked = 0;
+  private silent = false;
   /** False once the page turned out to be older or newer than the server. */
   private compatible = true;
   /** Events that occurred before `start`. */
@@ -28,6 +45,7 @@ export class SocketSource implements MessageSource {
 
   constructor(private readonly url: string) {
     this.open();
+    setInterval(() => this.check(), CHECK_MS);
   }
 
   start(listener: Listener): void {
@@ -51,19 +69,53 @@ export class SocketSource implements MessageSource {
   private open(): void {
     const socket = new WebSocket(this.url);
     socket.binaryType = "arraybuffer";
+    this.opened = this.received = performance.now();
     socket.onopen = () => {
-      this.wait = FIRST_WAIT_MS;
+      this.opened = this.received = performance.now();
       this.listener("connected", true);
     };
     socket.onmessage = (event: MessageEvent<string | ArrayBuffer>) => {
+      this.received = performance.now();
+      this.setSilent(false);
       if (this.compatible) this.receive(event.data);
     };
-    socket.onclose = () => {
-      this.listener("connected", false);
-      if (this.compatible) setTimeout(() => this.open(), this.wait);
-      this.wait = Math.min(this.wait * 2, MAX_WAIT_MS);
-    };
+    socket.onclose = () => this.reopen(socket);
     this.socket = socket;
+  }
+
+  /** Replaces a connection that has closed, or that is given up. */
+  private reopen(socket: WebSocket): void {
+    if (this.socket !== socket) return;
+    const lasted = socket.readyState !== WebSocket.CONNECTING && performance.now() - this.opened > STABLE_MS;
+    if (lasted) this.wait = FIRST_WAIT_MS;
+    // Without a network, closing takes longer than opening another one.
+    socket.onopen = socket.onmessage = socket.onclose = null;
+    this.socket = null;
+    socket.close();
+    this.setSilent(false);
+    this.listener("connected", false);
+    if (this.compatible) setTimeout(() => this.open(), this.wait);
+    this.wait = Math.min(this.wait * 2, MAX_WAIT_MS);
+  }
+
+  private check(): void {
+    const now = performance.now();
+    const isLate = now - this.checked > LATE_CHECK_MS;
+    this.checked = now;
+    const { socket } = this;
+    if (!socket || !this.compatible) return;
+    if (isLate) this.received = now;
+    const silence = now - this.received;
+    if (socket.readyState === WebSocket.OPEN) {
+      this.setSilent(silence > SILENT_MS);
+      if (silence > RECONNECT_MS) this.reopen(socket);
+    } else if (silence > OPEN_TIMEOUT_MS) this.reopen(socket);
+  }
+
+  private setSilent(silent: boolean): void {
+    if (silent === this.silent) return;
+    this.silent = silent;
+    this.listener("silent", silent);
   }
 
   private receive(data: string | ArrayBuffer): void {

@@ -9,6 +9,8 @@ export interface SourceEvents {
   /** The error of an invalid message. Invalid messages are counted and logged; they are never fatal. */
   invalid: string;
   connected: boolean;
+  /** Whether an open connection has delivered nothing for a while. */
+  silent: boolean;
 }
 
 export interface MessageSource {

@@ -119,7 +119,10 @@ export class ReplaySource implements MessageSource {
         view: block.rviz.view,
         global: NO_GLOBAL_OPTIONS,
         tools: [],
+        groups: [],
+        saved_views: [],
         unknown: [],
+        ignored: [],
       },
       topics: this.displays.map(({ block: { topic, type, display } }) => ({
         topic,
@@ -131,6 +134,7 @@ export class ReplaySource implements MessageSource {
       can_open: false,
       can_control: false,
       recent: [],
+      restart: null,
     };
     listener("text", hello);
     listener("text", {

@@ -1,31 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The camera: orbit view, top-down view, and following a frame. */
+/** The camera: the view controllers of RViz, and following a frame. */
 
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import type { JsonObject, Vector } from "../protocol/messages";
+import type { Json, JsonObject, Vector } from "../protocol/messages";
+import { LookControls } from "./look_controls";
 
-export type CameraMode = "orbit" | "top";
+/** How the camera is moved: around a point, from above, or by looking around. */
+export type CameraMode = "orbit" | "top" | "look";
+
+/** The view controllers of RViz by their class names, and how they move the camera. */
+const CONTROLLERS: Readonly<Record<string, CameraMode>> = {
+  FPS: "look",
+  FrameAligned: "look",
+  Orbit: "orbit",
+  ThirdPersonFollower: "orbit",
+  TopDownOrtho: "top",
+  XYOrbit: "orbit",
+};
+const DEFAULT_CONTROLLERS: Readonly<Record<CameraMode, string>> = { orbit: "Orbit", top: "TopDownOrtho", look: "FPS" };
 
 /** Which mouse button does what: as in RViz, or with the right button to move, as in many other programs. */
 export type MouseButtons = "rviz" | "right-moves";
 
-const MAX_PITCH = 1.55;
-
 const FIELD_OF_VIEW = 45;
 const NEAR_PLANE_M = 0.02;
+/** Just below 90 degrees, where yaw is still defined. */
+const MAX_PITCH = 1.55;
+const UP = new THREE.Vector3(0, 0, 1);
 
 export interface View {
   class: string;
   options: JsonObject;
 }
 
+/** The pose of the frame that the camera follows, or of the fixed frame. */
+export interface Reference {
+  position: THREE.Vector3;
+  quaternion: THREE.Quaternion;
+}
+
 export class Camera {
   mode: CameraMode = "orbit";
   private readonly perspective = new THREE.PerspectiveCamera(FIELD_OF_VIEW, 1, NEAR_PLANE_M, 5000);
   private readonly flat = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.1, 5000);
-  private readonly controls: Record<CameraMode, OrbitControls>;
+  private readonly controls: { orbit: OrbitControls; top: OrbitControls; look: LookControls };
   private followed: THREE.Vector3 | null = null;
+  /** The class of RViz's view controller, without its package. */
+  private controller = "Orbit";
+  /** The yaw of the followed frame, with which a ThirdPersonFollower turns. */
+  private followedYaw = 0;
+  /** The rotation of the top-down view in radians. */
+  private angle = 0;
   private width = 1;
   private height = 1;
 
@@ -34,8 +60,12 @@ export class Camera {
     this.flat.up.set(0, 1, 0);
     this.perspective.position.set(2.6, -2.6, 1.9);
     this.flat.position.set(0, 0, 1000);
-    this.controls = { orbit: new OrbitControls(this.perspective, canvas), top: new OrbitControls(this.flat, canvas) };
-    for (const controls of Object.values(this.controls)) {
+    this.controls = {
+      orbit: new OrbitControls(this.perspective, canvas),
+      top: new OrbitControls(this.flat, canvas),
+      look: new LookControls(this.perspective, canvas, onChange),
+    };
+    for (const controls of [this.controls.orbit, this.controls.top]) {
       controls.zoomToCursor = true;
       controls.minDistance = 0.05;
       controls.maxDistance = 3000;
@@ -52,21 +82,29 @@ export class Camera {
   }
 
   get current(): THREE.PerspectiveCamera | THREE.OrthographicCamera {
-    return this.mode === "orbit" ? this.perspective : this.flat;
+    return this.mode === "top" ? this.flat : this.perspective;
   }
 
   get target(): THREE.Vector3 {
-    return this.controls[this.mode].target;
+    const { mode, controls } = this;
+    return mode === "look" ? controls.look.front() : controls[mode].target;
   }
 
   setMode(mode: CameraMode): void {
     if (mode === this.mode) return;
     const target = this.target.clone();
     const height = this.visibleHeight();
+    this.change(DEFAULT_CONTROLLERS[mode]);
+    if (mode !== "look") this.moveTo(target, height);
+  }
+
+  /** Uses another view controller, without moving the camera. */
+  private change(controller: string): void {
     this.controls[this.mode].enabled = false;
-    this.mode = mode;
-    this.controls[mode].enabled = true;
-    this.moveTo(target, height);
+    this.controller = controller;
+    this.mode = CONTROLLERS[controller] as CameraMode;
+    this.controls[this.mode].enabled = true;
+    if (this.mode !== "top") this.perspective.up.set(0, 0, 1);
   }
 
   /** Enables or disables the control of the camera by the pointer. */
@@ -89,24 +127,39 @@ export class Camera {
     const move = new THREE.Vector3(...delta).negate();
     this.perspective.position.add(move);
     this.flat.position.add(move);
-    for (const controls of Object.values(this.controls)) {
-      controls.target.add(move);
-      controls.update();
-    }
+    for (const controls of [this.controls.orbit, this.controls.top]) controls.target.add(move);
+    this.controls.look.base.position.add(move);
+    this.controls[this.mode].update();
     this.followed?.add(move);
   }
 
-  /** Keeps the distance to a moving frame; null stops following. */
-  follow(position: THREE.Vector3 | null): void {
-    if (!position) {
+  /** Keeps the position relative to a moving frame; null stops following. The frame is centered first. */
+  follow(reference: Reference | null): void {
+    if (!reference) {
       this.followed = null;
+      this.followedYaw = 0;
+      return;
+    }
+    const { position } = reference;
+    if (![...position.toArray(), ...reference.quaternion.toArray()].every(Number.isFinite)) return;
+    if (this.mode === "look") {
+      this.followed = position.clone();
+      this.attach(reference);
       return;
     }
     const delta = this.followed ? position.clone().sub(this.followed) : position.clone().sub(this.target);
+    const turn = this.followed && this.controller === "ThirdPersonFollower" ? yawOf(reference) - this.followedYaw : 0;
     this.followed = position.clone();
-    if (delta.lengthSq() === 0 || !Number.isFinite(delta.lengthSq())) return;
+    this.followedYaw = yawOf(reference);
+    if (delta.lengthSq() === 0 && turn === 0) return;
     this.current.position.add(delta);
-    this.target.add(delta);
+    const { target } = this;
+    target.add(delta);
+    if (turn !== 0) {
+      const around = this.current.position.clone().sub(position).applyAxisAngle(UP, turn);
+      this.current.position.copy(position).add(around);
+      target.copy(target.clone().sub(position).applyAxisAngle(UP, turn).add(position));
+    }
     this.controls[this.mode].update();
   }
 
@@ -114,11 +167,16 @@ export class Camera {
   setMouse(buttons: MouseButtons): void {
     const [MIDDLE, RIGHT] =
       buttons === "rviz" ? [THREE.MOUSE.PAN, THREE.MOUSE.DOLLY] : [THREE.MOUSE.DOLLY, THREE.MOUSE.PAN];
-    for (const controls of Object.values(this.controls)) Object.assign(controls.mouseButtons, { MIDDLE, RIGHT });
+    const { orbit, top } = this.controls;
+    for (const controls of [orbit, top]) Object.assign(controls.mouseButtons, { MIDDLE, RIGHT });
   }
 
   /** Looks at a point from where the camera is, so that it rotates around this point, as RViz's Focus Camera. */
   lookAt(point: THREE.Vector3): void {
+    if (this.mode === "look") {
+      this.controls.look.lookAt(point);
+      return;
+    }
     if (this.mode === "top") this.flat.position.set(point.x, point.y, this.flat.position.z);
     this.target.copy(point);
     this.controls[this.mode].update();
@@ -126,7 +184,8 @@ export class Camera {
 
   /** Rotates the camera around its target, by radians; the top-down view does not rotate. */
   turn(yaw: number, pitch: number): void {
-    if (this.mode === "top") return;
+    if (this.mode === "look") this.controls.look.turn(yaw, -pitch);
+    if (this.mode !== "orbit") return;
     const target = this.controls.orbit.target;
     const away = this.perspective.position.clone().sub(target);
     const distance = away.length();
@@ -142,6 +201,10 @@ export class Camera {
     const camera = this.current;
     camera.updateMatrixWorld();
     const height = this.visibleHeight();
+    if (this.mode === "look") {
+      this.controls.look.move(0, -right * height, up * height);
+      return;
+    }
     const step = new THREE.Vector3()
       .addScaledVector(new THREE.Vector3().setFromMatrixColumn(camera.matrixWorld, 0), right * height)
       .addScaledVector(new THREE.Vector3().setFromMatrixColumn(camera.matrixWorld, 1), up * height);
@@ -152,7 +215,17 @@ export class Camera {
 
   /** Changes the visible height by a factor; factors below 1 zoom in. */
   zoom(factor: number): void {
-    this.moveTo(this.target.clone(), this.visibleHeight() * factor);
+    if (this.mode === "look") this.controls.look.move(1 - factor, 0, 0);
+    else this.moveTo(this.target.clone(), this.visibleHeight() * factor);
+  }
+
+  /** Moves a view that looks around with a frame: FrameAligned turns with it, FPS does not. */
+  private attach({ position, quaternion }: Reference): void {
+    const { look } = this.controls;
+    look.base.position.copy(position);
+    if (this.controller === "FrameAligned") look.base.quaternion.copy(quaternion);
+    else look.base.quaternion.identity();
+    look.update();
   }
 
   fit(box: THREE.Box3): void {
@@ -165,7 +238,8 @@ export class Camera {
 
   /** Moves the camera so that the given height in meters around the target fills the view. */
   private moveTo(target: THREE.Vector3, visibleHeight: number): void {
-    const controls = this.controls[this.mode];
+    if (this.mode === "look") this.change("Orbit");
+    const controls = this.controls[this.mode === "top" ? "top" : "orbit"];
     if (this.mode === "orbit") {
       const direction = this.perspective.position.clone().sub(controls.target).normalize();
       const distance = visibleHeight / (2 * Math.tan(((FIELD_OF_VIEW / 2) * Math.PI) / 180));
@@ -181,60 +255,98 @@ export class Camera {
 
   private visibleHeight(): number {
     if (this.mode === "top") return this.height / this.flat.zoom;
-    const distance = this.perspective.position.distanceTo(this.controls.orbit.target);
+    const distance = this.perspective.position.distanceTo(this.target);
     return 2 * distance * Math.tan(((FIELD_OF_VIEW / 2) * Math.PI) / 180);
   }
 
-  /** Applies the options of RViz's Orbit or TopDownOrtho view. Returns whether the view is supported. */
-  apply(view: View): boolean {
+  /**
+   * Applies a view of an .rviz file.
+   *
+   * @param view The view.
+   * @param reference The pose of its target frame, or of the fixed frame, to which its positions are relative.
+   * @returns Whether the view controller is supported.
+   */
+  apply(view: View, reference: Reference): boolean {
     const name = view.class.replace(/^.*\//, "");
-    const number = (key: string, fallback: number): number => {
+    if (!Object.hasOwn(CONTROLLERS, name)) return false;
+    const number = (value: Json | undefined, fallback: number): number =>
+      typeof value === "number" && Number.isFinite(value) ? value : fallback;
+    const option = (key: string, fallback: number): number => number(view.options[key], fallback);
+    const point = (key: string): THREE.Vector3 => {
       const value = view.options[key];
-      return typeof value === "number" && Number.isFinite(value) ? value : fallback;
+      const parts = value && typeof value === "object" && !Array.isArray(value) ? value : {};
+      return new THREE.Vector3(number(parts["X"], 0), number(parts["Y"], 0), number(parts["Z"], 0));
     };
-    if (name === "TopDownOrtho") {
-      this.setMode("top");
-      const target = new THREE.Vector3(number("X", 0), number("Y", 0), 0);
-      this.moveTo(target, this.height / Math.max(1e-3, number("Scale", 80)));
-      return true;
+    this.change(name);
+    this.followed = reference.position.clone();
+    this.followedYaw = yawOf(reference);
+    if (this.mode === "top") {
+      this.angle = option("Angle", 0);
+      this.flat.up.set(-Math.sin(this.angle), Math.cos(this.angle), 0);
+      const target = new THREE.Vector3(option("X", 0), option("Y", 0), 0).add(reference.position);
+      this.moveTo(target, this.height / Math.max(1e-3, option("Scale", 80)));
+    } else if (this.mode === "look") {
+      const { look } = this.controls;
+      look.position.copy(point("Position"));
+      look.yaw = option("Yaw", 0);
+      look.pitch = option("Pitch", 0);
+      look.roll = option("Roll", 0);
+      this.attach(reference);
+    } else {
+      const turn = name === "ThirdPersonFollower" ? this.followedYaw : 0;
+      const target = point("Focal Point").applyAxisAngle(UP, turn).add(reference.position);
+      const distance = Math.max(0.05, Math.min(2500, option("Distance", 5)));
+      const pitch = Math.max(-MAX_PITCH, Math.min(MAX_PITCH, option("Pitch", 0.785)));
+      const yaw = option("Yaw", 0.785) + turn;
+      const away = new THREE.Vector3(Math.cos(yaw) * Math.cos(pitch), Math.sin(yaw) * Math.cos(pitch), Math.sin(pitch));
+      this.controls.orbit.target.copy(target);
+      this.perspective.position.copy(target).addScaledVector(away, distance);
+      this.controls.orbit.update();
     }
-    if (!["Orbit", "XYOrbit", "ThirdPersonFollower"].includes(name)) return false;
-    this.setMode("orbit");
-    const focal = view.options["Focal Point"];
-    const part = (key: string): number => {
-      const value = focal && typeof focal === "object" && !Array.isArray(focal) ? focal[key] : 0;
-      return typeof value === "number" && Number.isFinite(value) ? value : 0;
-    };
-    const target = new THREE.Vector3(part("X"), part("Y"), part("Z"));
-    const distance = Math.max(0.05, Math.min(2500, number("Distance", 5)));
-    const pitch = Math.max(-1.55, Math.min(1.55, number("Pitch", 0.785)));
-    const yaw = number("Yaw", 0.785);
-    const away = new THREE.Vector3(Math.cos(yaw) * Math.cos(pitch), Math.sin(yaw) * Math.cos(pitch), Math.sin(pitch));
-    this.controls.orbit.target.copy(target);
-    this.perspective.position.copy(target).addScaledVector(away, distance);
-    this.controls.orbit.update();
     return true;
   }
 
-  describe(targetFrame: string | null): View {
-    const target = this.target;
-    const frame = targetFrame ?? "<Fixed Frame>";
+  /** The view in the format of .rviz files; positions are relative to the target frame, or to the fixed frame. */
+  describe(targetFrame: string | null, reference: Reference): View {
+    const name = `rviz_default_plugins/${this.controller}`;
+    const frame = { "Target Frame": targetFrame ?? "<Fixed Frame>" };
+    const target = this.target.clone().sub(reference.position);
+    const { look } = this.controls;
     if (this.mode === "top")
       return {
-        class: "rviz_default_plugins/TopDownOrtho",
-        options: { Angle: 0, Scale: this.flat.zoom, "Target Frame": frame, X: target.x, Y: target.y },
+        class: name,
+        options: { Angle: this.angle, Scale: this.flat.zoom, ...frame, X: target.x, Y: target.y },
       };
-    const away = this.perspective.position.clone().sub(target);
+    if (this.mode === "look") {
+      const angles = { Pitch: look.pitch, Yaw: positive(look.yaw), ...(look.roll ? { Roll: look.roll } : {}) };
+      return { class: name, options: { ...angles, Position: xyz(look.position), ...frame } };
+    }
+    const turn = this.controller === "ThirdPersonFollower" ? this.followedYaw : 0;
+    const away = this.perspective.position.clone().sub(this.target);
     const distance = away.length();
     return {
-      class: "rviz_default_plugins/Orbit",
+      class: name,
       options: {
         Distance: distance,
-        "Focal Point": { X: target.x, Y: target.y, Z: target.z },
+        "Focal Point": xyz(target.applyAxisAngle(UP, -turn)),
         Pitch: Math.asin(Math.max(-1, Math.min(1, away.z / distance))),
-        "Target Frame": frame,
-        Yaw: (Math.atan2(away.y, away.x) + 2 * Math.PI) % (2 * Math.PI),
+        ...frame,
+        Yaw: positive(Math.atan2(away.y, away.x) - turn),
       },
     };
   }
+}
+
+/** The rotation of a pose around z in radians. */
+function yawOf({ quaternion: { x, y, z, w } }: Reference): number {
+  return Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
+}
+
+function xyz(point: THREE.Vector3): JsonObject {
+  return { X: point.x, Y: point.y, Z: point.z };
+}
+
+/** An angle from 0 to 2 pi, as RViz writes it. */
+function positive(angle: number): number {
+  return ((angle % (2 * Math.PI)) + 2 * Math.PI) % (2 * Math.PI);
 }

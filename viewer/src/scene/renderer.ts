@@ -27,6 +27,8 @@ export class SceneRenderer {
   /** The element on the right that the main view leaves free. */
   private extraRoot: HTMLElement | null = null;
   private scheduled = false;
+  private isLost = false;
+  private readonly lostListeners: (() => void)[] = [];
   private readonly drawTimes: number[] = [];
   private readonly light = new THREE.DirectionalLight(0xffffff, 1.6);
 
@@ -45,8 +47,27 @@ export class SceneRenderer {
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f96, 1.7), this.light, this.light.target);
     this.setPalette(palette);
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement as HTMLElement);
-    canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
-    canvas.addEventListener("webglcontextrestored", () => this.invalidate());
+    canvas.addEventListener("webglcontextlost", (event) => {
+      event.preventDefault();
+      this.setLost(true);
+    });
+    canvas.addEventListener("webglcontextrestored", () => this.setLost(false));
+    this.invalidate();
+  }
+
+  /** Whether the browser has taken the graphics card away, and nothing can be drawn. */
+  get lost(): boolean {
+    return this.isLost;
+  }
+
+  /** Calls the listener when the browser takes the graphics card away, and when it gives it back. */
+  onLost(listener: () => void): void {
+    this.lostListeners.push(listener);
+  }
+
+  private setLost(lost: boolean): void {
+    this.isLost = lost;
+    for (const listener of this.lostListeners) listener();
     this.invalidate();
   }
 

@@ -12,7 +12,8 @@ import { Highlight } from "./highlight";
 import { Picker, type Hit } from "./picking";
 import { Panes } from "./panes";
 import { PointerTools, type PixelBox } from "./tools";
-import type { FrameUpdate, Vector } from "../protocol/messages";
+import type { Reference } from "./camera";
+import type { FrameUpdate, Json, JsonObject, RvizView, Vector } from "../protocol/messages";
 import { SceneRenderer } from "./renderer";
 import type { Theme } from "../util/theme";
 
@@ -25,6 +26,8 @@ const OUTLIER_SPAN_M = 300;
 const OUTLIER_FACTOR = 20;
 /** The distance around the frames in which displayed data is included when fitting the camera. */
 const FIT_MARGIN_M = 1;
+/** Relative; the camera computes with float64, but its angles are recomputed from positions. */
+const CAMERA_PRECISION = 1e-5;
 const REFIT_MS = [1000, 3000];
 
 export interface TfOptions extends FrameOptions {
@@ -46,6 +49,10 @@ export class View {
   tf: TfOptions = { scale: 1, axes: true, arrows: true, names: true };
   tfShown = true;
   followed: string | null = null;
+  /** A view whose target frame is not known yet. */
+  private waitingView: RvizView | null = null;
+  /** The view of a file, and its description right after it was applied. */
+  private fileView: { view: RvizView; before: RvizView | null } | null = null;
   private readonly frames: FramesView;
   private readonly labels: LabelLayer;
   private pending: FrameUpdate | null = null;
@@ -232,9 +239,65 @@ export class View {
     return point.toArray().map((value, k) => value + (this.framePoses.origin[k] as number)) as Vector;
   }
 
-  /** Prevents the camera from being fitted to the first frames, after a file has set it. */
-  keepCamera(): void {
-    this.fitted = true;
+  /**
+   * Applies a view, and again as soon as the pose of its target frame is known. Returns whether its controller is
+   * supported.
+   *
+   * @param view The view in the format of .rviz files.
+   * @param isOfFile Whether it is the current view of an .rviz file, with which `describeView` compares later.
+   */
+  setView(view: RvizView, isOfFile = false): boolean {
+    const target = view.options["Target Frame"];
+    this.followed = typeof target === "string" && target && !target.startsWith("<") ? target : null;
+    this.renderer.camera.follow(null);
+    const supported = this.renderer.camera.apply(view, this.reference() ?? this.fixedFrame());
+    this.waitingView = supported ? view : null;
+    if (isOfFile) this.fileView = supported ? { view, before: null } : null;
+    if (supported) this.fitted = this.cameraChosen = true; // The camera is not fitted to the first frames.
+    this.refresh();
+    return supported;
+  }
+
+  /** The view in the format of .rviz files. */
+  get wholeView(): RvizView {
+    return this.renderer.camera.describe(this.followed, this.reference() ?? this.fixedFrame());
+  }
+
+  /** The view in the format of .rviz files: what has changed since that of the file was applied, or all of it. */
+  describeView(): RvizView {
+    const current = this.wholeView;
+    const whole = { class: current.class.replace(/^.*\//, ""), options: current.options };
+    if (!this.fileView) return whole;
+    const { view, before } = this.fileView;
+    if (!before) return view;
+    if (before.class !== current.class) return whole;
+    return { class: whole.class, options: changedNumbers(before.options, current.options) };
+  }
+
+  /** The pose of the followed frame in the scene, or null if it is not known yet. */
+  private reference(): Reference | null {
+    if (this.followed === null) return this.framePoses.count > 0 ? this.fixedFrame() : null;
+    const position = this.position(this.followed);
+    const i = this.model.forest.index.get(this.followed) ?? -1;
+    return position && { position, quaternion: new THREE.Quaternion().fromArray(this.framePoses.quaternions, i * 4) };
+  }
+
+  private fixedFrame(): Reference {
+    const position = new THREE.Vector3(...this.framePoses.origin).negate();
+    return { position, quaternion: new THREE.Quaternion() };
+  }
+
+  /** Moves the camera with the frame that it follows, or to the place that a file gives. */
+  private moveCamera(): void {
+    const { camera } = this.renderer;
+    const reference = this.reference();
+    if (!reference) return;
+    const { waitingView, fileView } = this;
+    if (waitingView) {
+      camera.apply(waitingView, reference);
+      if (fileView?.view === waitingView) fileView.before = camera.describe(this.followed, reference);
+      this.waitingView = null;
+    } else if (this.followed) camera.follow(reference);
   }
 
   position(frame: string): THREE.Vector3 | null {
@@ -247,6 +310,9 @@ export class View {
     this.followed = frame;
     if (frame !== null) this.cameraChosen = true;
     this.renderer.camera.follow(null);
+    // A view that still waits for its target frame is given up.
+    if (this.fileView && this.fileView.view === this.waitingView) this.fileView = null;
+    this.waitingView = null;
     this.refresh();
   }
 
@@ -264,10 +330,7 @@ export class View {
     this.frames.update(framePoses, model.forest, this.tf);
     this.frames.setChain(framePoses, model.selection.frame ? this.chain : []);
     this.measure.update((end) => this.positionOf(end));
-    if (this.followed) {
-      const position = this.position(this.followed);
-      if (position) this.renderer.camera.follow(position);
-    }
+    this.moveCamera();
     this.adjuster.place(framePoses);
     this.highlight.place(framePoses.origin);
     for (const listener of this.posesListeners) listener(framePoses, update);
@@ -421,6 +484,25 @@ export class View {
     }
     return best ? this.model.forest.name(best.i) : null;
   }
+}
+
+/** The options that differ by more than the precision of the camera. */
+function changedNumbers(before: JsonObject, after: JsonObject): JsonObject {
+  const changed: JsonObject = {};
+  for (const [key, value] of Object.entries(after)) {
+    const earlier = before[key];
+    if (typeof value === "number" && typeof earlier === "number") {
+      if (Math.abs(value - earlier) > CAMERA_PRECISION * Math.max(1, Math.abs(earlier))) changed[key] = value;
+    } else if (isObject(value) && isObject(earlier)) {
+      const inner = changedNumbers(earlier, value);
+      if (Object.keys(inner).length > 0) changed[key] = inner;
+    } else if (value !== earlier) changed[key] = value;
+  }
+  return changed;
+}
+
+function isObject(value: Json | undefined): value is JsonObject {
+  return typeof value === "object" && value !== null && !Array.isArray(value);
 }
 
 /** Removes points that are far away from all others, so that `fit` shows the others. */

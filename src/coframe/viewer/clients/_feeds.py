@@ -13,6 +13,7 @@ import time
 from functools import partial
 from typing import TYPE_CHECKING
 
+from coframe._output.formatting import rounded_duration
 from coframe.viewer._findings import finding_rows
 from coframe.viewer.clients._panel_feeds import panel_feeds
 from coframe.viewer.clients._scripting import NodesFeed, WidgetsFeed
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from coframe.viewer._findings import FindingsReport
-    from coframe.viewer.clients._state import ClientState
+    from coframe.viewer.clients._state import ClientState, Subscription
     from coframe.viewer.protocol.encoding import EntryPose
     from coframe.viewer.robots.descriptions import Description, DescriptionProblem
 
@@ -65,11 +66,16 @@ class _Feed:
 class HelloFeed(_Feed):
     """The first message, sent again when the source, its title or the origin changes."""
 
+    def __init__(self, client: ClientState) -> None:
+        super().__init__(client)
+        self._restarts = client.viewer.restarts
+
     def updates(self, now: float) -> Iterator[Update]:
         """Yield the message."""
         del now
         viewer = self._viewer
         yield Update(HELLO, (viewer.origin, viewer.edition), self._encode)
+        self._restarts = viewer.restarts
 
     def _encode(self) -> str:
         viewer, client = self._viewer, self._client
@@ -89,6 +95,7 @@ class HelloFeed(_Feed):
                 can_open=viewer.can_open,
                 can_control=viewer.control is not None,
                 recent=viewer.recent_sources(),
+                restart=viewer.restart_reason if viewer.restarts != self._restarts else None,
             )
         )
 
@@ -215,15 +222,30 @@ class FramesFeed(_Feed):
         now = 0 if span is None else span[1]
         for number, subscription in self._client.subscriptions.items():
             display = subscription.display
-            if display is None:
-                status = Status("waiting", f"no node publishes {subscription.topic}")
-            else:
-                display.update(buffer, fixed, at, now)
-                for _, drawing in display.take_unsent():
-                    yield Update(None, None, partial(_unchanged, drawing))
-                entries += display.poses()
-                status = display.status
+            if display is not None:
+                try:
+                    display.update(buffer, fixed, at, now)
+                    drawings, poses = display.take_unsent(), display.poses()
+                except Exception as error:  # noqa: BLE001 - one failure must not stop the others
+                    self._client.fail(subscription, error)
+                else:
+                    for _, drawing in drawings:
+                        yield Update(None, None, partial(_unchanged, drawing))
+                    entries += poses
+            status = self._status(subscription)
             yield Update(("display", number), (subscription.serial, status), partial(_encode_status, number, status))
+
+    def _status(self, subscription: Subscription) -> Status:
+        if subscription.problem:
+            return Status("error", subscription.problem)
+        if subscription.display is None:
+            return Status("waiting", f"no node publishes {subscription.topic}")
+        status = subscription.display.status
+        if status.state == "ok" and self._client.clock.live:
+            silence = self._viewer.topic_silence(subscription.display.messages)
+            if silence is not None:
+                return Status("waiting", f"no message for {rounded_duration(silence)}")
+        return status
 
     def _encode(self, now: float, fixed: str, at: int, entries: list[EntryPose]) -> bytes:
         self._sent = now

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.errors import WireError
+from coframe.errors import ViewerError, WireError
 from coframe.viewer.panels.completion import MAX_TEXT
 from coframe.viewer.protocol.requests import BadRequestError
 
@@ -101,7 +101,7 @@ class ClientPanels:
         if self.topic and self.inspected is None:
             try:
                 self.inspected = self._viewer.open(self.topic)
-            except WireError as error:
+            except (ViewerError, WireError) as error:
                 self.problem = f"{error} {error.hint}".strip()
 
     def show_log(self, *, shown: bool) -> None:

@@ -109,6 +109,10 @@ async def _pick(client: ClientState, request: client_messages.PickPart) -> PartD
     )
 
 
+async def _restart(client: ClientState, _request: client_messages.Restart) -> None:
+    client.viewer.restart("Reset")
+
+
 async def _step(client: ClientState, request: client_messages.Step) -> None:
     viewer = client.viewer
     span = viewer.span
@@ -216,15 +220,15 @@ async def _explain(_client: ClientState, request: client_messages.RequestCodePag
     return CodePage(type="page", code=found.code, title=found.title, text=found.text)
 
 
-async def _load_rviz(client: ClientState, request: client_messages.LoadRviz) -> Rviz:
+async def _load_rviz(client: ClientState, request: client_messages.LoadRviz) -> Rviz | None:
     try:
         config = await _in_background(client, RvizConfig.parse, request.text)
     except ViewerError as error:
         raise BadRequestError(str(error), error.hint) from None
     client.rviz, client.requested_rate = config, config.frame_rate
-    if config.fixed_frame:
+    if config.fixed_frame and not request.restore:
         client.requested_fixed = config.fixed_frame
-    return Rviz({"type": "rviz", **config.description()})
+    return None if request.restore else Rviz({"type": "rviz", **config.description()})
 
 
 async def _save_rviz(client: ClientState, request: client_messages.SaveRviz) -> RvizSaved:
@@ -233,11 +237,10 @@ async def _save_rviz(client: ClientState, request: client_messages.SaveRviz) -> 
     if client.requested_rate is not None:
         options = {**options, "frame_rate": client.requested_rate}
     try:
-        merged = config.merged(request.displays, options, request.view, request.tools)
+        merged = config.merged(request.displays, options, request.view, request.tools, request.groups)
         text = await _in_background(client, merged.text)
     except (ViewerError, RecursionError) as error:
         raise BadRequestError(f"the configuration cannot be written: {error}") from None
-    client.rviz = merged
     client.viewer.saved_rviz = text
     return RvizSaved(type="saved", text=text)
 
@@ -279,6 +282,7 @@ _HANDLERS: dict[type, Callable[[ClientState, Any], Awaitable[ServerMessage | Non
     client_messages.PublishStatic: _publish_static,
     client_messages.RequestRelation: _relate,
     client_messages.RequestTimeline: _timeline,
+    client_messages.Restart: _restart,
     client_messages.SaveRviz: _save_rviz,
     client_messages.SetFixedFrame: _set_fixed_frame,
     client_messages.SetFrameRate: _set_frame_rate,

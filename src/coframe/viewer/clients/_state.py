@@ -8,7 +8,8 @@ import dataclasses
 import itertools
 from typing import TYPE_CHECKING
 
-from coframe.errors import WireError
+from coframe.errors import ViewerError, WireError
+from coframe.viewer._failures import report_failure
 from coframe.viewer._state import FRAME_TIMEOUT
 from coframe.viewer.clients._panels import ClientPanels
 from coframe.viewer.clients._playback_clock import PlaybackClock
@@ -17,6 +18,7 @@ from coframe.viewer.displays.display import Display
 from coframe.viewer.displays.resources import Resources
 from coframe.viewer.displays.rows import row_of
 from coframe.viewer.protocol.requests import BadRequestError
+from coframe.viewer.protocol.schema import shorten
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -40,7 +42,8 @@ class Subscription:
     Attributes:
         topic: The name of the topic.
         options: The drawing options.
-        display: The display; None while the topic does not exist.
+        display: The display; None while the topic does not exist or cannot be opened.
+        problem: Why the topic cannot be displayed, or "".
         resources: What the display uses besides its topic.
         missing: Other topics of the display that do not exist yet.
         serial: A number that differs between all subscriptions.
@@ -52,6 +55,7 @@ class Subscription:
         self.display: Display | None = None
         self.resources = Resources(topic)
         self.missing: tuple[str, ...] = ()
+        self.problem = ""
         self.serial = next(_serial_numbers)
 
 
@@ -129,12 +133,18 @@ class ClientState:
             self._close(subscription)
 
     def open_late_displays(self) -> None:
-        """Open the displays whose topics did not exist until now."""
+        """Open the displays whose topics did not exist until now. Those that failed are not tried again."""
         for number, subscription in self.subscriptions.items():
-            if subscription.display is None:
+            if subscription.display is None and not subscription.problem:
                 self._open(number, subscription)
             elif subscription.missing:
                 self._open_others(subscription)
+
+    def fail(self, subscription: Subscription, error: Exception) -> None:
+        """Close a display that failed unexpectedly, until the page subscribes to it again."""
+        report_failure(f"the display of {shorten(subscription.topic)} failed; the others continue", error)
+        subscription.problem = f"The display failed: {type(error).__name__}: {error}"
+        self._close(subscription)
 
     def restart(self) -> None:
         """Restart after a change of the source or the origin: close all displays, to be reopened later."""
@@ -143,6 +153,7 @@ class ClientState:
         self.nodes, self.widgets = SentRecords(), SentRecords()
         for subscription in self.subscriptions.values():
             self._close(subscription)
+            subscription.problem = ""
             subscription.serial = next(_serial_numbers)
             subscription.options = dataclasses.replace(subscription.options, origin=self.origin)
 
@@ -186,6 +197,14 @@ class ClientState:
             self.stop_joints(number)
 
     def _open(self, number: int, subscription: Subscription) -> None:
+        try:
+            self._open_all(number, subscription)
+        except (ViewerError, WireError) as error:
+            subscription.problem = f"{error}. {error.hint}" if error.hint else str(error)
+        except Exception as error:  # noqa: BLE001 - one failure must not stop the others
+            self.fail(subscription, error)
+
+    def _open_all(self, number: int, subscription: Subscription) -> None:
         viewer = self.viewer
         messages = viewer.open(subscription.topic)
         if messages is None:
@@ -195,13 +214,18 @@ class ClientState:
         subscription.resources = Resources(
             subscription.topic, viewer.meshes.url_or_problem, connection=viewer.source.connection
         )
-        self._open_others(subscription)
         subscription.display = Display(number, messages, subscription.options, subscription.resources, viewer.executor)
+        self._open_others(subscription)
 
     def _open_others(self, subscription: Subscription) -> None:
-        """Open the other topics of a display that exist by now."""
+        """Open the other topics of a display that exist by now. Without one that cannot be opened, it shows less."""
         for topic in subscription.missing:
-            messages = self.viewer.open(topic)
+            try:
+                messages = self.viewer.open(topic)
+            except (ViewerError, WireError) as error:
+                report_failure(f"the display of {shorten(subscription.topic)} cannot use {shorten(topic)}", error)
+                subscription.missing = tuple(other for other in subscription.missing if other != topic)
+                continue
             if messages is not None:
                 subscription.resources.others[topic] = messages
         subscription.missing = tuple(one for one in subscription.missing if one not in subscription.resources.others)

@@ -9,25 +9,27 @@ not read the answers. Updates use direct calls without tasks and locks, which wo
 from __future__ import annotations
 
 import asyncio
-import logging
 import math
 from collections import deque
 from typing import TYPE_CHECKING, Protocol
 
+from coframe.errors import ViewerError, WireError
+from coframe.viewer._failures import report_failure
 from coframe.viewer.clients._feeds import FRAMES, HELLO, TOPICS, make_feeds
 from coframe.viewer.clients._requests import handle
 from coframe.viewer.clients._state import ClientState
 from coframe.viewer.clients._upload_requests import UploadedPart
-from coframe.viewer.protocol.client_messages import FrameDrawn
+from coframe.viewer.protocol.client_messages import FrameDrawn, Subscribe
 from coframe.viewer.protocol.encoding import encode
 from coframe.viewer.protocol.requests import BadRequestError, parse_request
-from coframe.viewer.protocol.server_messages import ProblemReport
+from coframe.viewer.protocol.server_messages import DisplayStatus, ProblemReport, Pulse
 
 if TYPE_CHECKING:
     from collections.abc import Hashable
     from typing import TypeAlias
 
     from coframe.viewer._state import ViewerState
+    from coframe.viewer.clients._update import Feed
     from coframe.viewer.protocol.client_messages import ClientMessage
     from coframe.viewer.protocol.server_messages import ServerMessage
 
@@ -35,11 +37,13 @@ if TYPE_CHECKING:
 
 __all__ = ["Client", "Socket"]
 
-_logger = logging.getLogger("coframe.viewer")
-
 # The server reads no more requests from a client with this many unanswered ones until half of them are answered.
 MAX_REQUESTS = 64
 _NEVER_SENT = object()
+# Seconds between two pulses.
+PULSE_PERIOD = 1.0
+# Seconds until a feed that failed unexpectedly is tried again, and how many such exceptions a page receives.
+FAILED_PERIOD, MAX_REPORTED = 2.0, 20
 
 
 class Socket(Protocol):
@@ -87,6 +91,8 @@ class Client:
         self._ready = True
         self._requests: deque[_Request] = deque()
         self._answering: asyncio.Task[None] | None = None
+        self._pulse_due = 0.0
+        self._reported: set[str] = set()  # The unexpected exceptions that the page knows.
 
     def receive(self, message: str | bytes) -> None:
         """Process a message: a confirmation immediately, everything else in order."""
@@ -118,27 +124,56 @@ class Client:
         # All clients with the same rate are due at the same moments.
         rate = self.state.frame_rate
         self.due = (math.floor(now * rate) + 1) / rate
-        self.state.publish_joints()
-        self._viewer.panels.poll()
+        try:
+            self.state.publish_joints()
+            self._viewer.panels.poll()
+            if self._ready and self._socket.is_clear:
+                self._viewer.refresh()
+        except Exception as error:  # noqa: BLE001 - one failure must not stop the others
+            self._report("the viewer could not be updated completely; it tries again", error)
         if self._ready and self._socket.is_clear:
-            self._viewer.refresh()
             self._send_updates(now)
 
+    def pulse(self, now: float) -> None:
+        """Send a pulse once per second, also while the page draws: without one, it concludes that the server stopped.
+
+        Args:
+            now: The time of the monotonic clock.
+        """
+        if now >= self._pulse_due and self._socket.is_clear:
+            self._pulse_due = now + PULSE_PERIOD
+            viewer = self._viewer
+            self._socket.send(encode(Pulse(type="pulse", silence=viewer.silence(), clock=viewer.source.clock)))
+
     def _send_updates(self, now: float) -> None:
-        sent = self._sent
         for feed in self._feeds:
-            if now < feed.due:
-                continue
-            for key, version, encode_update in feed.updates(now):
-                if key is not None:
-                    if sent.get(key, _NEVER_SENT) == version:
-                        continue
-                    if key == HELLO:
-                        self._restart()
-                    sent[key] = version
-                    if key == FRAMES:
-                        self._ready = False
-                self._socket.send(encode_update())
+            if now >= feed.due:
+                try:
+                    self._send_feed(feed, now)
+                except Exception as error:  # noqa: BLE001 - one failure must not stop the others
+                    feed.due = now + FAILED_PERIOD
+                    self._report(f"{type(feed).__name__} failed; the other parts of the page continue", error)
+
+    def _send_feed(self, feed: Feed, now: float) -> None:
+        sent = self._sent
+        for key, version, encode_update in feed.updates(now):
+            if key is not None:
+                if sent.get(key, _NEVER_SENT) == version:
+                    continue
+                if key == HELLO:
+                    self._restart()
+                sent[key] = version
+            self._socket.send(encode_update())
+            if key == FRAMES:
+                self._ready = False
+
+    def _report(self, what: str, error: Exception) -> None:
+        """Log an unexpected exception, and tell the page about the first one of its kind."""
+        report_failure(what, error)
+        text = f"A part of the viewer failed: {type(error).__name__}: {error}"
+        if text not in self._reported and len(self._reported) < MAX_REPORTED:
+            self._reported.add(text)
+            self._socket.send(encode(ProblemReport(type="problem", text=text, hint="See the server's log.")))
 
     def _restart(self) -> None:
         """Send everything again after another `hello`, except problems that were already reported."""
@@ -160,18 +195,33 @@ class Client:
                     self._socket.resume()
                 await self._answer(request)
             self._answering = None
-        except Exception:
-            _logger.exception("a client's request failed and the client was disconnected; the others continue")
+        except Exception as error:  # noqa: BLE001 - one failure must not stop the others
+            report_failure("an answer could not be sent and the client was disconnected; the others continue", error)
             self._socket.abort()
 
     async def _answer(self, request: _Request) -> None:
-        answer: ServerMessage | None
-        try:
-            if isinstance(request, BadRequestError):
-                raise request
-            answer = await handle(self.state, request)
-        except BadRequestError as error:
-            answer = ProblemReport(type="problem", text=str(error), hint=error.hint)
-        if answer is not None:
+        for answer in await self._answers(request):
             await self._socket.cleared()
             self._socket.send(encode(answer))
+
+    async def _answers(self, request: _Request) -> list[ServerMessage]:
+        """Return the answer; that to a request that fails is its error, also on the display that it concerns."""
+        if isinstance(request, BadRequestError):
+            return _refusal(str(request), request.hint, request.display)
+        display = request.id if isinstance(request, Subscribe) else None
+        try:
+            answer = await handle(self.state, request)
+        except (BadRequestError, ViewerError, WireError) as error:
+            return _refusal(str(error), error.hint, display)
+        except Exception as error:  # noqa: BLE001 - a request that fails unexpectedly must not stop the others
+            report_failure(f"a request {type(request).__name__} failed; the viewer continues", error)
+            return _refusal(f"A request failed: {type(error).__name__}: {error}", "", display)
+        return [] if answer is None else [answer]
+
+
+def _refusal(text: str, hint: str, display: int | None) -> list[ServerMessage]:
+    """Return the answers to a request that failed."""
+    answers: list[ServerMessage] = [ProblemReport(type="problem", text=text, hint=hint)]
+    if display is not None:
+        answers.append(DisplayStatus(type="display", id=display, state="error", text=f"{text} {hint}".strip()))
+    return answers

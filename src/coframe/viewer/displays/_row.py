@@ -25,6 +25,7 @@ __all__ = [
     "NumberOption",
     "Option",
     "TextOption",
+    "value_at",
 ]
 
 
@@ -37,11 +38,13 @@ class _Details:
         needs: When the option has an effect; it is hidden otherwise. Conditions are joined by " & ": "Key" is a flag
             that is on, "!Key" one that is off, and "Key=A|B" a choice. "" means always.
         sets: The field of `DisplayOptions` that the option sets, or "" if only the page uses it.
+        aliases: Keys under which other .rviz files contain the option, for example files of RViz 1.
     """
 
     label: str = ""
     needs: str = ""
     sets: str = ""
+    aliases: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -134,6 +137,35 @@ class TextOption(_Details):
         return value if isinstance(value, str) else self.value
 
 
+def value_at(values: Mapping[str, Any], path: str) -> Any:
+    """Return the value of an option in an .rviz file, or None if it is missing.
+
+    RViz writes an option that has options of its own as a mapping, with its value as "Value".
+
+    Args:
+        values: The options of a display.
+        path: The key of the option; nested keys are paths such as "Covariance/Value".
+    """
+    found: Any = values
+    parts = path.split("/")
+    for number, part in enumerate(parts):
+        if not isinstance(found, dict):
+            return found if parts[number:] == ["Value"] else None
+        found = found.get(part)
+    return found.get("Value") if isinstance(found, dict) else found
+
+
+def _set_at(values: dict[str, Any], path: str, value: Any) -> None:
+    """Set an option that is nested; mappings on the way to it are made, or contain the earlier value as "Value"."""
+    *outer, last = path.split("/")
+    for part in outer:
+        inner = values.get(part)
+        if not isinstance(inner, dict):
+            inner = values[part] = {} if inner is None else {"Value": inner}
+        values = inner
+    values[last] = value
+
+
 Option: TypeAlias = NumberOption | FlagOption | ColorOption | ChoiceOption | TextOption
 
 
@@ -181,12 +213,26 @@ class DisplayRow:
     guide: str = ""
     lacks: str = ""
 
+    @property
+    def option_keys(self) -> frozenset[str]:
+        """The keys of its options."""
+        return frozenset(option.key for option in self.options)
+
+    def with_usual_keys(self, values: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the options of an .rviz file with the keys of RViz 2; see `aliases`."""
+        result = {key: dict(part) if isinstance(part, dict) else part for key, part in values.items()}
+        for option in self.options:
+            for alias in option.aliases:
+                if alias in result and not isinstance(result[alias], dict):
+                    _set_at(result, option.key, result.pop(alias))
+        return result
+
     def server_options(self, values: Mapping[str, Any]) -> DisplayOptions:
         """Return the options with which the page would subscribe to a topic.
 
         Args:
             values: The options in an .rviz file; missing and invalid ones have their defaults.
         """
-        chosen = {option.sets: option.sent(values.get(option.key)) for option in self.options if option.sets}
+        chosen = {option.sets: option.sent(value_at(values, option.key)) for option in self.options if option.sets}
         checked: DisplayOptions = record(DisplayOptions).build({**chosen, "display": self.name})
         return checked

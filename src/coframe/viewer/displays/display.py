@@ -8,7 +8,6 @@ is available; after a short wait without success, the status of the display give
 from __future__ import annotations
 
 import itertools
-import logging
 import time
 from collections import deque
 from typing import TYPE_CHECKING, NamedTuple
@@ -18,6 +17,7 @@ import numpy as np
 from coframe._output.formatting import count
 from coframe.errors import ConnectivityException, ExtrapolationException, LookupException, TransformException
 from coframe.time import SECOND
+from coframe.viewer._failures import report_failure
 from coframe.viewer.displays._drawing import FIXED_FRAME
 from coframe.viewer.displays._renderers import UnfinishedError
 from coframe.viewer.displays.rows import make_renderer
@@ -36,8 +36,6 @@ if TYPE_CHECKING:
     from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 
 __all__ = ["Display", "Status"]
-
-_logger = logging.getLogger("coframe.viewer")
 
 # How long a message waits for its transform, in seconds.
 TRANSFORM_TIMEOUT = 1.0
@@ -335,8 +333,8 @@ def _render(renderer: Renderer, message: StampedMessage, now: int, at: int) -> _
         return _Rendered(message, Status("waiting", str(progress)))
     except ValueError as error:
         return _Rendered(message, Status("error", f"the message cannot be drawn: {error}"))
-    except Exception as error:  # An unexpected error in one message must not stop the viewer.
-        _logger.exception("a message could not be drawn")
+    except Exception as error:  # noqa: BLE001 - an unexpected error in one message must not stop the viewer
+        report_failure("a message could not be drawn", error)
         return _Rendered(message, Status("error", f"the message cannot be drawn: {type(error).__name__}: {error}"))
 
 

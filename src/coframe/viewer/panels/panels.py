@@ -59,6 +59,12 @@ class Panels:
             self._graph = NodeGraphWatcher(self._source)
         return self._graph
 
+    def restart(self) -> None:
+        """Close all curves, because their times have jumped back. The pages request them again."""
+        if self._curves is not None:
+            self._curves.close()
+            self._curves = None
+
     def poll(self) -> None:
         """Process new data; called for each update of a client, even if the client cannot receive it."""
         for part in (self._curves, self._log, self._graph):

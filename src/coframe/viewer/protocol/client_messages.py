@@ -22,6 +22,7 @@ from coframe.viewer.protocol.common import (
     Position,
     Radians,
     RvizDisplay,
+    RvizGroup,
     RvizTool,
     RvizView,
     Unit,
@@ -93,6 +94,13 @@ class SetTime:
     playing: bool = False
     speed: Annotated[float, Clamp(0.01, 100.0)] = 1.0
     loop: tuple[Nanoseconds, Nanoseconds] | None = None
+
+
+@dataclass(frozen=True)
+class Restart:
+    """Starts again without the data received so far, like the button Reset of RViz."""
+
+    type: ClassVar[str] = "restart"
 
 
 @dataclass(frozen=True)
@@ -206,10 +214,16 @@ class PublishStatic:
 
 @dataclass(frozen=True)
 class LoadRviz:
-    """Reads an .rviz file."""
+    """Reads an .rviz file.
+
+    Attributes:
+        text: The content of the file.
+        restore: Whether the page shows the file already, and only the server needs it again after a reconnection.
+    """
 
     type: ClassVar[str] = "load_rviz"
     text: str
+    restore: bool = False
 
 
 @dataclass(frozen=True)
@@ -221,6 +235,7 @@ class SaveRviz:
     global_: JsonObject = field(default_factory=dict)
     view: JsonObject = field(default_factory=dict)
     tools: list[RvizTool] = field(default_factory=list)
+    groups: list[RvizGroup] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -431,6 +446,7 @@ class FrameDrawn:
 ClientMessage: TypeAlias = (
     SetFixedFrame
     | SetTime
+    | Restart
     | Step
     | Subscribe
     | Unsubscribe

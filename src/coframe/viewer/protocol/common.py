@@ -27,6 +27,7 @@ PayloadRows: TypeAlias = tuple[int, int]
 
 UploadState: TypeAlias = Literal["receiving", "done", "failed"]
 ViewerMode: TypeAlias = Literal["live", "recording", "buffer", "replay"]
+ClockState: TypeAlias = Literal["system", "simulated", "paused"]
 FrameActivity: TypeAlias = Literal["static", "fresh", "stale", "gone"]
 DisplayState: TypeAlias = Literal["ok", "waiting", "error"]
 Severity: TypeAlias = Literal["error", "warning", "note"]
@@ -42,11 +43,32 @@ AxisName: TypeAlias = Literal["x", "y", "z"]
 NodeKind: TypeAlias = Literal["frame", "points", "lines", "mesh", "text", "image"]
 WidgetKind: TypeAlias = Literal["button", "checkbox", "dropdown", "folder", "number", "slider", "text"]
 
-RvizDisplay = TypedDict(
-    "RvizDisplay",
+_RvizDisplay = TypedDict(
+    "_RvizDisplay",
     {"class": str, "name": str, "enabled": bool, "topic": str | None, "options": JsonObject},
 )
-"""A display of an RViz configuration; ``class`` has no package prefix."""
+
+
+class RvizDisplay(_RvizDisplay, total=False):
+    """A display of an RViz configuration; ``class`` has no package prefix.
+
+    ``enabled`` is false also in a disabled group; ``checked`` is the display's own flag. ``source`` is the place in the
+    file, missing for displays of the page, and ``group`` the source of the group that contains the display, or "".
+    """
+
+    checked: bool
+    source: str
+    group: str
+
+
+class RvizGroup(TypedDict):
+    """A group of displays; ``source`` is its place in the file, ``group`` that of the group that contains it, or ""."""
+
+    source: str
+    group: str
+    name: str
+    enabled: bool
+
 
 RvizView = TypedDict("RvizView", {"class": str, "options": JsonObject})
 """The current view of an RViz configuration."""

@@ -21,11 +21,13 @@ class BadRequestError(CoframeError, ValueError):
 
     Attributes:
         hint: Advice for the user.
+        display: The id of the display that the request concerns, or None.
     """
 
-    def __init__(self, text: str, hint: str = "") -> None:
+    def __init__(self, text: str, hint: str = "", display: int | None = None) -> None:
         super().__init__(text)
         self._hint = hint
+        self.display = display
 
 
 def parse_request(message: str | bytes) -> client_messages.ClientMessage:
@@ -51,8 +53,15 @@ def parse_request(message: str | bytes) -> client_messages.ClientMessage:
     try:
         return cast("client_messages.ClientMessage", found.build(fields))
     except InvalidFieldError as error:
-        value = shorten(error.value)
-        raise BadRequestError(f"{error.path} of a message {kind!r} must be {error.expected}, not {value}") from None
+        text = f"{error.path} of a message {kind!r} must be {error.expected}, not {shorten(error.value)}"
+        raise BadRequestError(text, display=_display_of(fields, error.path)) from None
+
+
+def _display_of(fields: dict[str, Any], path: str) -> int | None:
+    """Return the id of the display whose options are invalid, or None if something else is."""
+    number = fields.get("id")
+    is_id = isinstance(number, int) and not isinstance(number, bool) and 0 <= number < 1 << 32
+    return number if is_id and fields["type"] == client_messages.Subscribe.type and "options" in path else None
 
 
 def _reject_constant(name: str) -> Any:

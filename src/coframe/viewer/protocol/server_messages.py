@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Literal, TypeAlias, TypedDict
 
 from coframe.viewer.protocol.common import (
+    ClockState,
     DisplayState,
     FindingsState,
     FrameActivity,
@@ -15,6 +16,7 @@ from coframe.viewer.protocol.common import (
     Pose,
     Quaternion,
     RvizDisplay,
+    RvizGroup,
     RvizTool,
     RvizView,
     Severity,
@@ -47,17 +49,36 @@ class RvizGlobalOptions(TypedDict):
 UnknownRvizPart = TypedDict("UnknownRvizPart", {"path": str, "class": str, "name": str})
 """A part of an RViz configuration that the viewer cannot show."""
 
+
+class IgnoredRvizPart(TypedDict):
+    """An option, a tool or a panel of an RViz configuration that has no effect; ``path`` is what contains it."""
+
+    path: str
+    name: str
+    value: str
+
+
+class SavedRvizView(TypedDict):
+    """A view that an RViz configuration contains in addition to the current one."""
+
+    name: str
+    view: RvizView
+
+
 RvizConfiguration = TypedDict(
     "RvizConfiguration",
     {
         "displays": list[RvizDisplay],
+        "groups": list[RvizGroup],
         "global": RvizGlobalOptions,
         "view": RvizView | None,
+        "saved_views": list[SavedRvizView],
         "tools": list[RvizTool],
         "unknown": list[UnknownRvizPart],
+        "ignored": list[IgnoredRvizPart],
     },
 )
-"""The supported parts of an RViz configuration."""
+"""The supported parts of an RViz configuration, and the others: ``unknown`` displays and ``ignored`` options."""
 
 
 class RecentSource(TypedDict):
@@ -73,7 +94,8 @@ class Hello(TypedDict):
 
     The page compares ``version`` with its own. ``mode`` is "replay" only inside replay files. ``fixed_is_given`` is
     true if an option or the .rviz file names the fixed frame, so that the page does not use the one of its last
-    session. With ``can_open``, the page may open files.
+    session. With ``can_open``, the page may open files. ``restart`` is the reason if everything starts again without
+    the data received so far, such as a jump back in time.
     """
 
     type: Literal["hello"]
@@ -90,6 +112,19 @@ class Hello(TypedDict):
     can_open: bool
     can_control: bool
     recent: list[RecentSource]
+    restart: str | None
+
+
+class Pulse(TypedDict):
+    """Sent once per second, so that a page notices a stopped server or an interrupted network.
+
+    ``silence`` is the number of seconds since the last transform or displayed message arrived, or None if nothing
+    arrives regularly. ``clock`` is "simulated" if the time is that of /clock, and "paused" while it does not advance.
+    """
+
+    type: Literal["pulse"]
+    silence: float | None
+    clock: ClockState
 
 
 class TreeFrame(TypedDict):
@@ -261,18 +296,10 @@ class PartDetails(TypedDict):
     curves: list[str]
 
 
-Rviz = TypedDict(
-    "Rviz",
-    {
-        "type": Literal["rviz"],
-        "displays": list[RvizDisplay],
-        "global": RvizGlobalOptions,
-        "view": RvizView | None,
-        "tools": list[RvizTool],
-        "unknown": list[UnknownRvizPart],
-    },
-)
-"""The answer to ``load_rviz``."""
+class Rviz(RvizConfiguration):
+    """The answer to ``load_rviz``."""
+
+    type: Literal["rviz"]
 
 
 class Relation(TypedDict):
@@ -599,6 +626,7 @@ class ProblemReport(TypedDict):
 
 ServerMessage: TypeAlias = (
     Hello
+    | Pulse
     | Tree
     | Stats
     | DisplayTopics

@@ -6,8 +6,9 @@ from __future__ import annotations
 import itertools
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.errors import DecodeError, RobotDescriptionError
+from coframe.errors import DecodeError, RobotDescriptionError, ViewerError, WireError
 from coframe.robots import parse_urdf
+from coframe.viewer._failures import report_failure
 from coframe.viewer.robots.robot_message import robot_message
 
 if TYPE_CHECKING:
@@ -74,7 +75,11 @@ class RobotDescriptions:
         """Read new descriptions. The executor parses them."""
         for topic in self._topics:
             if topic.work is None:
-                topic.start_reading(source, executor, self._meshes)
+                try:
+                    topic.start_reading(source, executor, self._meshes)
+                except (ViewerError, WireError) as error:
+                    topic.is_invalid = True
+                    self.problems[topic.name] = DescriptionProblem(f"no robot description: {error}", error.hint)
             elif topic.work.done():
                 result, topic.work = topic.work.result(), None
                 self.problems.pop(topic.name, None)
@@ -111,13 +116,14 @@ class _DescriptionTopic:
         self.number = number
         self.name = name
         self.messages: TopicMessages | None = None
+        self.is_invalid = False  # The topic cannot be opened.
         self.work: Future[Description | DescriptionProblem | None] | None = None
         self._last_key: int | None = None
 
     def start_reading(self, source: ViewerSource, executor: Executor, meshes: MeshTable) -> None:
         """Start to parse the newest description if it is new."""
-        if self.messages is None:
-            self.messages = source.open(self.name)
+        if self.messages is None and not self.is_invalid:
+            self.messages = source.open(source.resolve(self.name))
         message = None if self.messages is None else self.messages.at(0)
         if message is not None and message.key != self._last_key:
             self._last_key = message.key
@@ -137,4 +143,7 @@ def _read(
         robot = parse_urdf(text)
     except (RobotDescriptionError, DecodeError) as error:
         return DescriptionProblem(f"{topic} contains no valid robot description: {error}", error.hint)
+    except Exception as error:  # noqa: BLE001 - an unexpected error in one description must not stop the viewer
+        report_failure("a robot description could not be read", error)
+        return DescriptionProblem(f"{topic} cannot be read: {type(error).__name__}: {error}", "")
     return Description(robot, robot_message(robot, number, topic, topic, meshes), next(_versions))

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from coframe.viewer.rviz._values import plain, plain_class, set_topic, topic_of, update
+from coframe.viewer.rviz._values import changes, plain, plain_class, set_topic, topic_of, update
+from coframe.viewer.sources.topic_names import resolved_topic
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,18 +23,11 @@ _OWN_KEYS = ("Class", "Topic")
 
 def read_tools(manager: dict[str, Any]) -> list[RvizTool]:
     """Return the tools that publish."""
-    return [
-        {
-            "class": plain_class(tool.get("Class")),
-            "topic": topic_of(tool),
-            "options": {str(key): plain(value) for key, value in tool.items() if key not in _OWN_KEYS},
-        }
-        for tool in _tools(manager)
-    ]
+    return [_described(tool) for tool in _tools(manager)]
 
 
 def merge_tools(manager: dict[str, Any], tools: Sequence[RvizTool], package: str) -> None:
-    """Write the topics and options of tools. Other tools and options are preserved."""
+    """Write those topics and options of tools that differ from the file."""
     for shown in tools:
         if shown["class"] not in TOOL_CLASSES:
             continue
@@ -42,13 +36,19 @@ def merge_tools(manager: dict[str, Any], tools: Sequence[RvizTool], package: str
             tool = {"Class": f"{package}/{shown['class']}"}
             known = manager.get("Tools")
             manager["Tools"] = [*(known if isinstance(known, list) else []), tool]
-        if shown["topic"] and topic_of(tool) != shown["topic"]:
-            if isinstance(tool.get("Topic"), dict):
-                tool["Topic"]["Value"] = shown["topic"]
-            else:
-                tool.pop("Topic", None)
-                set_topic(tool, shown["topic"], package)
-        update(tool, {key: value for key, value in shown["options"].items() if key not in _OWN_KEYS})
+        before = _described(tool)
+        if shown["topic"] and shown["topic"] != before["topic"]:
+            set_topic(tool, shown["topic"], package)
+        update(tool, changes(before["options"], {k: v for k, v in shown["options"].items() if k not in _OWN_KEYS}))
+
+
+def _described(tool: dict[str, Any]) -> RvizTool:
+    topic = topic_of(tool)
+    return {
+        "class": plain_class(tool.get("Class")),
+        "topic": None if topic is None else resolved_topic(topic),
+        "options": {str(key): plain(value) for key, value in tool.items() if key not in _OWN_KEYS},
+    }
 
 
 def _tools(manager: dict[str, Any]) -> list[dict[str, Any]]:

@@ -7,15 +7,27 @@ import math
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
     from typing import TypeGuard
 
-__all__ = ["OWN_KEYS", "is_number", "plain", "plain_class", "set_topic", "topic_of", "update"]
+__all__ = [
+    "OWN_KEYS",
+    "TOPIC_KEYS",
+    "changes",
+    "is_number",
+    "leaves",
+    "plain",
+    "plain_class",
+    "set_topic",
+    "topic_of",
+    "update",
+]
 
 OWN_KEYS = ("Class", "Name", "Enabled")
 """The keys of a display that are not options."""
 
-_TOPIC_KEYS = ("Topic", "Description Topic", "Marker Topic", "Image Topic")
+TOPIC_KEYS = ("Topic", "Description Topic", "Marker Topic", "Image Topic")
+"""The keys under which RViz 2 and RViz 1 write the topic of a display."""
 
 
 def plain_class(name: Any) -> str:
@@ -24,8 +36,8 @@ def plain_class(name: Any) -> str:
 
 
 def topic_of(display: Mapping[str, Any]) -> str | None:
-    """Return the topic of a display or tool, or None if it has none."""
-    for key in _TOPIC_KEYS:
+    """Return the topic of a display or tool as it is written, or None if it has none."""
+    for key in TOPIC_KEYS:
         value = display.get(key)
         value = value.get("Value") if isinstance(value, dict) else value
         if isinstance(value, str) and value:
@@ -33,15 +45,17 @@ def topic_of(display: Mapping[str, Any]) -> str | None:
     return None
 
 
-def set_topic(display: dict[str, Any], topic: str | None, package: str) -> None:
-    """Add a topic to a display or tool that has none, in the format of RViz 2 or, for the package "rviz", RViz 1."""
-    if not topic or topic_of(display) is not None:
-        return
-    if package == "rviz":
-        display["Topic"] = topic
-        return
-    qos = {"Depth": 5, "Durability Policy": "Volatile", "History Policy": "Keep Last"}
-    display["Topic"] = {**qos, "Reliability Policy": "Reliable", "Value": topic}
+def set_topic(display: dict[str, Any], topic: str, package: str) -> None:
+    """Set the topic of a display or tool; that of a new one has the format of RViz 2 or, for "rviz", of RViz 1."""
+    key = next((key for key in TOPIC_KEYS if key in display), None)
+    if key is None:
+        key = "Description Topic" if plain_class(display.get("Class")) == "RobotModel" else "Topic"
+        qos = {"Depth": 5, "Durability Policy": "Volatile", "History Policy": "Keep Last"}
+        display[key] = "" if package == "rviz" else {**qos, "Reliability Policy": "Reliable"}
+    if isinstance(display[key], dict):
+        display[key]["Value"] = topic
+    else:
+        display[key] = topic
 
 
 def is_number(value: Any) -> TypeGuard[float]:
@@ -60,14 +74,46 @@ def plain(value: Any) -> Any:
     return str(value)
 
 
+def leaves(values: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield the paths and values of all options, such as "Covariance/Position/Alpha"."""
+    for key, value in values.items():
+        if isinstance(value, dict):
+            yield from leaves(value, f"{prefix}{key}/")
+        else:
+            yield f"{prefix}{key}", value
+
+
+def changes(before: Mapping[str, Any], after: Any) -> dict[str, Any]:
+    """Return the options in `after` that differ from those in `before`, nested like them."""
+    found: dict[str, Any] = {}
+    for key, value in after.items() if isinstance(after, dict) else ():
+        earlier = before.get(key)
+        if isinstance(value, dict) and isinstance(earlier, dict):
+            if inner := changes(earlier, value):
+                found[key] = inner
+        elif key not in before or value != earlier or isinstance(value, bool) != isinstance(earlier, bool):
+            found[key] = value
+    return found
+
+
 def update(target: dict[str, Any], options: Any) -> None:
-    """Set the given options and keep the others."""
+    """Set the given options and keep the others.
+
+    RViz writes an option without options of its own as a value, and one with them as a mapping that contains its value
+    as "Value". The form in the file is kept, or changed to a mapping if it becomes necessary.
+    """
     if not isinstance(options, dict):
         return
     for key, value in options.items():
         if key in OWN_KEYS:
             continue
-        if isinstance(value, dict) and isinstance(target.get(key), dict):
-            update(target[key], value)
-        else:
-            target[key] = value
+        earlier = target.get(key)
+        if not isinstance(value, dict):
+            if isinstance(earlier, dict):
+                earlier["Value"] = value
+            else:
+                target[key] = value
+            continue
+        if not isinstance(earlier, dict):
+            earlier = target[key] = {} if earlier is None else {"Value": earlier}
+        update(earlier, value)

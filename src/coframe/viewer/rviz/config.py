@@ -10,14 +10,33 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from coframe._files.regular_files import read_regular_text, reading_hint
 from coframe.errors import ViewerError
 from coframe.viewer.displays.rows import DISPLAYS
-from coframe.viewer.protocol.server_messages import RvizConfiguration, RvizGlobalOptions, UnknownRvizPart
+from coframe.viewer.protocol.common import RvizGroup
+from coframe.viewer.protocol.server_messages import (
+    IgnoredRvizPart,
+    RvizConfiguration,
+    RvizGlobalOptions,
+    SavedRvizView,
+    UnknownRvizPart,
+)
+from coframe.viewer.rviz._ignored import ignored_options, ignored_panels, ignored_tools, ignored_view_options
 from coframe.viewer.rviz._reading import MAX_FILE_BYTES, read_yaml, yaml_module
 from coframe.viewer.rviz._tools import merge_tools, read_tools
-from coframe.viewer.rviz._values import OWN_KEYS, is_number, plain, plain_class, set_topic, topic_of, update
+from coframe.viewer.rviz._values import (
+    OWN_KEYS,
+    changes,
+    is_number,
+    plain,
+    plain_class,
+    set_topic,
+    topic_of,
+    update,
+)
+from coframe.viewer.sources.topic_names import resolved_topic
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
     from pathlib import Path
+    from typing import TypeGuard
 
     from coframe.viewer.protocol.common import RvizDisplay, RvizTool, RvizView
 
@@ -41,11 +60,28 @@ _NEW_CONFIGURATION: dict[str, Any] = {
 
 
 class _Found(NamedTuple):
-    """A display of a file, with the list that contains it."""
+    """A display of a file.
+
+    Attributes:
+        path: Its name after those of its groups.
+        source: Its place in the file: the indices of its groups and its own.
+        group: The place of the group that contains it, or "".
+        in_enabled_groups: Whether all groups that contain it are enabled.
+        siblings: The list that contains it.
+        display: Its content.
+    """
 
     path: str
+    source: str
+    group: str
+    in_enabled_groups: bool
     siblings: list[Any]
     display: dict[str, Any]
+
+    @property
+    def is_checked(self) -> bool:
+        """Whether the display itself is enabled."""
+        return self.display.get("Enabled", True) is not False
 
     @property
     def plain_class(self) -> str:
@@ -116,36 +152,31 @@ class RvizConfig:
     @property
     def description_topics(self) -> list[str]:
         """The topics of its robot descriptions."""
-        robots = (found for found in _displays(self._manager, "") if found.plain_class == "RobotModel")
-        return [topic for robot in robots if (topic := topic_of(robot.display)) is not None]
+        robots = (found for found in _displays(self._manager) if found.plain_class == "RobotModel")
+        return [resolved_topic(topic) for robot in robots if (topic := topic_of(robot.display)) is not None]
 
     def description(self) -> RvizConfiguration:
-        """Return the supported parts, and a list of the unsupported ones."""
+        """Return the supported parts, and lists of the unsupported ones."""
         known: list[RvizDisplay] = []
+        groups: list[RvizGroup] = []
         unknown: list[UnknownRvizPart] = []
-        for found in _displays(self._manager, ""):
+        ignored: list[IgnoredRvizPart] = []
+        for found in _displays(self._manager):
             if found.plain_class in DISPLAYS:
-                options = {str(key): plain(value) for key, value in found.display.items() if key not in OWN_KEYS}
-                enabled = found.display.get("Enabled", True) is not False
-                known.append(
-                    {
-                        "class": found.plain_class,
-                        "name": found.name,
-                        "enabled": enabled,
-                        "topic": topic_of(found.display),
-                        "options": options,
-                    }
-                )
-            elif found.plain_class != "Group":
+                described = _described(found)
+                known.append(described)
+                keys = DISPLAYS[found.plain_class].option_keys
+                ignored += ignored_options(found.path, found.plain_class, keys, described["options"])
+            elif found.plain_class == "Group":
+                groups.append(_described_group(found))
+            else:
                 full_class = str(found.display.get("Class") or "")
                 unknown.append({"path": found.path, "class": full_class, "name": found.name})
         view = self._view
-        view_class = plain_class(view.get("Class"))
-        if view and view_class not in VIEW_CLASSES:
-            unknown.append({"path": "Views/Current", "class": str(view.get("Class") or ""), "name": view_class})
-        current: RvizView | None = None
-        if view:
-            current = {"class": view_class, "options": plain({k: v for k, v in view.items() if k != "Class"})}
+        if view and plain_class(view.get("Class")) not in VIEW_CLASSES:
+            name = plain_class(view.get("Class"))
+            unknown.append({"path": "Views/Current", "class": str(view.get("Class") or ""), "name": name})
+        ignored += [*ignored_view_options(view), *ignored_tools(self._manager), *ignored_panels(self._document)]
         global_options = RvizGlobalOptions(
             fixed_frame=self.fixed_frame or None,
             background=_color_of(self._global.get("Background Color")),
@@ -154,10 +185,13 @@ class RvizConfig:
         return RvizConfiguration(
             {
                 "displays": known,
+                "groups": groups,
                 "global": global_options,
-                "view": current,
+                "view": _described_view(view) if view else None,
+                "saved_views": self._saved_views(),
                 "tools": read_tools(self._manager),
                 "unknown": unknown,
+                "ignored": ignored,
             }
         )
 
@@ -173,16 +207,19 @@ class RvizConfig:
         options: Mapping[str, Any],
         view: Mapping[str, Any],
         tools: Sequence[RvizTool] = (),
+        groups: Sequence[RvizGroup] = (),
     ) -> RvizConfig:
-        """Return a copy updated with the contents of the page; unsupported parts are preserved.
+        """Return a copy with what differs from `description`; everything else stays as it is written in the file.
 
         Args:
-            displays: The displays, as in `description`.
-            options: The global options, as in `description`.
-            view: The view, as in `description`.
+            displays: The displays, as in `description`; others are removed.
+            options: The global options, as in `description`; missing ones are not changed.
+            view: The view, as in `description`; missing options are not changed.
             tools: The tools that publish, as in `description`.
+            groups: The groups whose flags may have changed, as in `description`.
         """
         changed = RvizConfig(copy.deepcopy(self._document))
+        changed._merge_groups(groups)
         changed._merge_displays(displays)
         changed._merge_global(options)
         changed._merge_view(view)
@@ -213,67 +250,150 @@ class RvizConfig:
     @property
     def _package(self) -> str:
         """The package prefix of the file's classes, which differs between RViz 2 and RViz 1."""
-        classes = [str(found.display.get("Class")) for found in _displays(self._manager, "")]
+        classes = [str(found.display.get("Class")) for found in _displays(self._manager)]
         return "rviz" if any(name.startswith("rviz/") for name in classes) else "rviz_default_plugins"
 
+    def _saved_views(self) -> list[SavedRvizView]:
+        views = [view for view in _sequence(_mapping(self._manager, "Views"), "Saved") if isinstance(view, dict)]
+        described = [(str(view.get("Name") or f"View {number}"), view) for number, view in enumerate(views, 1)]
+        return [
+            SavedRvizView(name=name, view=_described_view(view))
+            for name, view in described
+            if plain_class(view.get("Class")) in VIEW_CLASSES
+        ]
+
+    def _merge_groups(self, groups: Sequence[RvizGroup]) -> None:
+        shown = {group["source"]: group for group in groups}
+        for found in list(_displays(self._manager)):
+            group = shown.get(found.source)
+            if found.plain_class == "Group" and group is not None and group["enabled"] != found.is_checked:
+                _set_enabled(found.display, enabled=group["enabled"])
+
     def _merge_displays(self, displays: Sequence[RvizDisplay]) -> None:
-        left = [found for found in _displays(self._manager, "") if found.plain_class in DISPLAYS]
+        remaining = [found for found in _displays(self._manager) if found.plain_class in DISPLAYS]
+        by_source = {found.source: found for found in remaining}
         package = self._package
         new = []
         for shown in displays:
             if shown["class"] not in DISPLAYS:
                 continue
-            key = (shown["class"], shown["name"] or shown["class"])
-            match = next((found for found in left if (found.plain_class, found.name) == key), None)
+            match = _match(shown, by_source, remaining)
             if match is not None:
-                left.remove(match)
-                _merge_display(match.display, shown)
+                remaining.remove(match)
+                _merge_display(match, shown, package)
             else:
-                display = {"Class": f"{package}/{key[0]}", "Name": key[1]}
-                _merge_display(display, shown)
-                set_topic(display, shown["topic"], package)
-                new.append(display)
-        for found in left:  # The user removed it from the page.
+                new.append(_new_display(shown, package))
+        for found in remaining:  # The user removed it from the page.
             found.siblings[:] = [one for one in found.siblings if one is not found.display]
         self._manager["Displays"] = [*_sequence(self._manager, "Displays"), *new]
 
     def _merge_global(self, options: Mapping[str, Any]) -> None:
         values = dict(self._global)
-        if isinstance(options.get("fixed_frame"), str):
-            values["Fixed Frame"] = options["fixed_frame"]
-        background = options.get("background")
-        if isinstance(background, list) and len(background) == 3 and all(is_number(part) for part in background):
+        fixed, background, rate = (options.get(key) for key in ("fixed_frame", "background", "frame_rate"))
+        if isinstance(fixed, str) and fixed != self.fixed_frame:
+            values["Fixed Frame"] = fixed
+        if _is_color(background) and background != _color_of(values.get("Background Color")):
             values["Background Color"] = "; ".join(str(min(max(int(part), 0), 255)) for part in background)
-        if is_number(options.get("frame_rate")):
-            values["Frame Rate"] = int(options["frame_rate"])
-        self._manager["Global Options"] = values
+        if is_number(rate) and rate != self.frame_rate:
+            values["Frame Rate"] = int(rate)
+        if values != self._global:
+            self._manager["Global Options"] = values
 
     def _merge_view(self, view: Mapping[str, Any]) -> None:
         if not view:
             return
-        current = dict(self._view)
-        if isinstance(view.get("class"), str) and plain_class(current.get("Class")) != view["class"]:
-            current["Class"] = f"{self._package}/{view['class']}"
-        update(current, view.get("options"))
-        views = dict(_mapping(self._manager, "Views"))
-        views["Current"] = current
-        self._manager["Views"] = views
+        current = copy.deepcopy(self._view)
+        before = _described_view(current)["options"]
+        name = view.get("class")
+        if isinstance(name, str) and plain_class(current.get("Class")) != name:
+            current["Class"] = f"{self._package}/{name}"
+            if "Value" in current:
+                current["Value"] = f"{name} ({self._package})"
+        update(current, changes(before, view.get("options")))
+        if current != self._view:
+            views = dict(_mapping(self._manager, "Views"))
+            views["Current"] = current
+            self._manager["Views"] = views
 
 
-def _displays(parent: dict[str, Any], path: str) -> Iterator[_Found]:
+def _displays(parent: dict[str, Any], path: str = "", source: str = "", *, enabled: bool = True) -> Iterator[_Found]:
     """Yield all displays. The displays of a group follow the group."""
-    for display in _sequence(parent, "Displays"):
+    for number, display in enumerate(_sequence(parent, "Displays")):
         if isinstance(display, dict):
-            found = _Found("", parent["Displays"], display)
+            own = f"{source}/{number}" if source else str(number)
+            found = _Found("", own, source, enabled, parent["Displays"], display)
             found = found._replace(path=f"{path}{found.name}")
             yield found
             if found.plain_class == "Group":
-                yield from _displays(display, f"{found.path}/")
+                yield from _displays(display, f"{found.path}/", own, enabled=enabled and found.is_checked)
 
 
-def _merge_display(display: dict[str, Any], shown: RvizDisplay) -> None:
-    display["Enabled"] = shown["enabled"]
-    update(display, shown["options"])
+def _described(found: _Found) -> RvizDisplay:
+    display = found.display
+    options = {str(key): plain(value) for key, value in display.items() if key not in OWN_KEYS}
+    return {
+        "class": found.plain_class,
+        "name": found.name,
+        "enabled": found.is_checked and found.in_enabled_groups,
+        "topic": _resolved(topic_of(display)),
+        "options": DISPLAYS[found.plain_class].with_usual_keys(options),
+        "checked": found.is_checked,
+        "source": found.source,
+        "group": found.group,
+    }
+
+
+def _described_group(found: _Found) -> RvizGroup:
+    return RvizGroup(source=found.source, group=found.group, name=found.name, enabled=found.is_checked)
+
+
+def _described_view(view: Mapping[str, Any]) -> RvizView:
+    options = plain({key: value for key, value in view.items() if key != "Class"})
+    return {"class": plain_class(view.get("Class")), "options": options}
+
+
+def _match(shown: RvizDisplay, by_source: Mapping[str, _Found], remaining: Sequence[_Found]) -> _Found | None:
+    """Return the display of the file that the page shows, or None for a new one."""
+    found = by_source.get(shown.get("source", ""))
+    if found is not None and found in remaining and found.plain_class == shown["class"]:
+        return found
+    key = (shown["class"], shown["name"] or shown["class"])
+    return next((found for found in remaining if (found.plain_class, found.name) == key), None)
+
+
+def _new_display(shown: RvizDisplay, package: str) -> dict[str, Any]:
+    display: dict[str, Any] = {"Class": f"{package}/{shown['class']}", "Name": shown["name"] or shown["class"]}
+    display["Enabled"] = shown.get("checked", shown["enabled"])
+    update(display, DISPLAYS[shown["class"]].with_usual_keys(shown["options"]))
+    if shown["topic"]:
+        set_topic(display, shown["topic"], package)
+    return display
+
+
+def _merge_display(found: _Found, shown: RvizDisplay, package: str) -> None:
+    """Write what the page has changed of a display."""
+    before, display = _described(found), found.display
+    checked = shown.get("checked", before["checked"])
+    if checked == before["checked"] and shown["enabled"] not in {before["enabled"], before["checked"]}:
+        checked = shown["enabled"]
+    if checked != before["checked"]:
+        _set_enabled(display, enabled=checked)
+    if shown["name"] and shown["name"] != before["name"]:
+        display["Name"] = shown["name"]
+    row = DISPLAYS[found.plain_class]
+    update(display, changes(before["options"], row.with_usual_keys(shown["options"])))
+    if shown["topic"] and shown["topic"] != before["topic"]:
+        set_topic(display, shown["topic"], package)
+
+
+def _set_enabled(display: dict[str, Any], *, enabled: bool) -> None:
+    display["Enabled"] = enabled
+    if isinstance(display.get("Value"), bool):  # RViz 2 writes both.
+        display["Value"] = enabled
+
+
+def _resolved(topic: str | None) -> str | None:
+    return None if topic is None else resolved_topic(topic)
 
 
 def _mapping(parent: dict[str, Any], key: str) -> dict[str, Any]:
@@ -286,6 +406,10 @@ def _sequence(parent: dict[str, Any], key: str) -> list[Any]:
         return []
     value: list[Any] = parent[key]
     return value
+
+
+def _is_color(value: Any) -> TypeGuard[list[float]]:
+    return isinstance(value, list) and len(value) == 3 and all(is_number(part) for part in value)
 
 
 def _color_of(value: Any) -> list[int] | None:

@@ -66,7 +66,7 @@ class Scene:
     Args:
         buffer: The buffer whose frames are shown.
         ages: Whether frames become stale when their publisher stops, as in a live buffer.
-        clock: Return the monotonic time in nanoseconds.
+        clock: Return the time in nanoseconds by which frames become stale, for example the monotonic time.
     """
 
     def __init__(self, buffer: Buffer, *, ages: bool, clock: Callable[[], int] = time.monotonic_ns) -> None:
@@ -78,6 +78,7 @@ class Scene:
         self.infos: list[FrameInfo] = []
         self._changes: int | None = None
         self._edges: list[tuple[str, str, bool]] = []
+        self._clock = clock
         self._liveness = LivenessTracker(buffer, clock)
         self._tables: dict[str, _core.PoseTable] = {}
 
@@ -87,11 +88,30 @@ class Scene:
         if changes == self._changes:
             return
         self._changes = changes
-        self.infos = self.buffer.frames()
+        self.infos = _known(self.buffer.frames())
         self._update_structure()
         dynamic = [info for info in self.infos if info.samples and not info.static]
         self.span = (min(info.oldest for info in dynamic), max(info.newest for info in dynamic)) if dynamic else None
         self._liveness.update(self.infos)
+
+    def restart(self) -> None:
+        """Forget what was known about the frames, after the buffer was cleared."""
+        self._changes = None
+        self._liveness = LivenessTracker(self.buffer, self._clock)
+        self.refresh()
+
+    def newest(self, frame: str) -> int:
+        """Return the newest stamp of a frame in nanoseconds, or 0 if it is static or has no samples."""
+        index = self.structure.indices.get(frame)
+        info = None if index is None else self.infos[index]
+        return info.newest if info is not None and info.samples and not info.static else 0
+
+    def silence(self) -> float | None:
+        """Return how many seconds ago the last sample of any frame arrived; None if all frames are static."""
+        if self.span is None:
+            return None
+        moves = np.array([bool(info.parent) and not info.static for info in self.infos], bool)
+        return float(self._liveness.silences()[moves].min()) / SECOND if moves.any() else None
 
     def ages_now(self) -> NDArray[np.float64]:
         """Return how many seconds ago each frame's last sample arrived, (N,), or 0 for static frames."""
@@ -156,6 +176,14 @@ class Scene:
             self.structure = _structure_of(self.infos)
             self.revision += 1
             self._tables.clear()
+
+
+def _known(infos: list[FrameInfo]) -> list[FrameInfo]:
+    """Return the frames that have samples or are the parent of one that has."""
+    if all(info.samples or info.static for info in infos):
+        return infos
+    parents = {info.parent for info in infos if info.samples or info.static}
+    return [info for info in infos if info.samples or info.static or info.name in parents]
 
 
 def _structure_of(infos: list[FrameInfo]) -> SceneStructure:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["frame_rows"]
 
 _STATES: tuple[FrameActivity, ...] = ("fresh", "stale", "gone")
+_FRESH = 0
 _NO_INTERVALS = (0.0, 0.0, 0.0)
 
 
@@ -37,7 +38,7 @@ def frame_rows(scene: Scene, origin: int, timeout: float) -> list[FrameStats]:
         mean, _, longest = intervals.get(info.name, _NO_INTERVALS) if moves else _NO_INTERVALS
         rows.append(
             FrameStats(
-                rate=round(SECOND / mean, 3) if mean else None,
+                rate=_rate(mean, is_silent=state != _FRESH),
                 age=round(age, 3) if moves and scene.ages else None,
                 last=info.newest - origin if moves else None,
                 publisher=info.authority or None,
@@ -47,3 +48,10 @@ def frame_rows(scene: Scene, origin: int, timeout: float) -> list[FrameStats]:
             )
         )
     return rows
+
+
+def _rate(mean: float, *, is_silent: bool) -> float | None:
+    """Return the rate in Hz for a mean interval in nanoseconds, None if unknown, and 0 if nothing arrives now."""
+    if not mean:
+        return None
+    return 0.0 if is_silent else round(SECOND / mean, 3)

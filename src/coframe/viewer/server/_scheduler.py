@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
-import logging
 from typing import TYPE_CHECKING
 
+from coframe.viewer._failures import report_failure
 from coframe.viewer.clients.client import Client
 
 if TYPE_CHECKING:
@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from coframe.viewer.server._websocket import WebSocket
 
 __all__ = ["ClientScheduler"]
-
-_logger = logging.getLogger("coframe.viewer")
 
 
 class ClientScheduler:
@@ -57,7 +55,8 @@ class ClientScheduler:
     def _update(self, socket: WebSocket, client: Client, now: float) -> None:
         try:
             client.update(now)
-        except Exception:
-            _logger.exception("a client failed and was disconnected; the others continue")
+            client.pulse(now)
+        except Exception as error:  # noqa: BLE001 - one failure must not stop the others
+            report_failure("a client failed and was disconnected; the others continue", error)
             del self._clients[socket]
             socket.abort()

@@ -7,16 +7,21 @@ import time
 import weakref
 from typing import TYPE_CHECKING, Any
 
+from coframe._output.formatting import duration
 from coframe.time import MINUTE, SECOND
+from coframe.viewer.sources._sim_time import SimTime
+from coframe.viewer.sources._time_jumps import TransformStamps
 from coframe.viewer.sources.adaptive_subscription import AdaptiveSubscription
 from coframe.viewer.sources.topic_messages import LiveMessages
+from coframe.viewer.sources.topic_names import NodeName, resolve_topic
 
 if TYPE_CHECKING:
-    from collections.abc import Generator
+    from collections.abc import Callable, Generator
 
     from coframe.bags import Recording
     from coframe.connection.connection import Connection
     from coframe.doctor import Report
+    from coframe.viewer.protocol.common import ClockState
     from coframe.viewer.sources.source import Mode
     from coframe.wire.endpoints import Subscription
     from coframe.wire.qos import QoS
@@ -28,6 +33,7 @@ _WINDOW = 10 * SECOND
 _FIRST_REPORT, _REPORT_PERIOD = 5.0, 2.0
 # The maximum share of a processor for the doctor's reports, not counting its subscriptions.
 _SHARE = 0.01
+_DAY = 24 * 60 * MINUTE
 # How long messages are kept if the buffer has no cache length.
 _KEEP_IF_UNLIMITED = MINUTE
 
@@ -38,24 +44,32 @@ class LiveSource:
     Args:
         connection: The connection whose buffer is shown and whose node subscribes.
         own: Whether closing the source also closes the connection.
+        use_sim_time: Whether the clock is that of /clock; None follows /clock when a node publishes it.
     """
 
     mode: Mode = "live"
     recording: Recording | None = None
     span: tuple[int, int] | None = None
 
-    def __init__(self, connection: Connection, *, own: bool = False) -> None:
+    def __init__(self, connection: Connection, *, own: bool = False, use_sim_time: bool | None = None) -> None:
         self._connection = connection
         self.connection: Connection | None = connection
         self.buffer = connection.buffer
         self.title = f"coframe: ROS domain {connection.participant.domain_id}"
+        self.node = NodeName(connection.node.namespace, connection.node.name)
         self._own = own
         self._subscriptions: weakref.WeakSet[AdaptiveSubscription] = weakref.WeakSet()
+        self._sim_time = SimTime(connection, follow=use_sim_time)
+        self._stamps = TransformStamps(connection)
 
     def topics(self) -> list[tuple[str, str]]:
         """Return the topics with a publisher or subscriber, with their types."""
         found = self._connection.participant.topics()
         return [(topic, ros_type) for topic, ros_types in found.items() for ros_type in ros_types]
+
+    def resolve(self, topic: str) -> str:
+        """Return the full name of a topic."""
+        return resolve_topic(topic, self.node)
 
     def open(self, topic: str) -> LiveMessages | None:
         """Subscribe to a topic so that messages of all its publishers are received."""
@@ -76,12 +90,39 @@ class LiveSource:
         self._subscriptions.add(subscription)
         keep = self.buffer.cache_ns
         keep = keep if keep >= 0 else _KEEP_IF_UNLIMITED
-        return LiveMessages(subscription, ros_type, keep, self._connection.frame)
+        return LiveMessages(subscription, ros_type, keep, self._connection.frame, self._sim_time.now)
 
     def refresh(self) -> None:
         """Adapt all subscriptions to new publishers."""
         for subscription in list(self._subscriptions):
             subscription.follow()
+
+    @property
+    def clock(self) -> ClockState:
+        """The clock: that of the system, or /clock, which may be paused."""
+        if not self._sim_time.is_followed:
+            return "system"
+        return "paused" if self._sim_time.is_paused else "simulated"
+
+    def watch(self, newest: Callable[[str], int]) -> str:
+        """Return why everything has to start again: the stamps of transforms or of /clock have jumped back."""
+        now = time.monotonic_ns()
+        on_clock, on_transforms = self._sim_time.poll(now), self._stamps.poll(now, newest)
+        jump = on_clock or on_transforms
+        if not jump:
+            return ""
+        what = "/clock" if on_clock else "The time of the transforms"
+        return f"{what} jumped back by {duration(jump)}" if jump < _DAY else f"{what} jumped back"
+
+    def restart(self) -> None:
+        """Remove the transforms of the time before a jump, as tf2 does after a jump of its clock."""
+        self.buffer.clear()
+        self._sim_time.clear()
+        self._stamps.clear()
+
+    def running(self) -> int:
+        """Return the time of the monotonic clock in nanoseconds, without pauses of a simulation."""
+        return self._sim_time.running()
 
     def examine(self) -> Generator[dict[str, Report] | None, None, None]:
         """Return a generator of reports on the last ten seconds, as `coframe doctor --watch` prints them.
@@ -107,7 +148,9 @@ class LiveSource:
                 due = time.monotonic() + max(_REPORT_PERIOD, (time.thread_time() - begin) / _SHARE)
 
     def close(self) -> None:
-        """Close the connection if the source owns it."""
+        """Close the connection if the source owns it, and the subscriptions of the source in any case."""
+        self._sim_time.close()
+        self._stamps.close()
         if self._own:
             self._connection.close()
 

@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from coframe.errors import DecodeError, ViewerError
+from coframe.viewer.sources.source import WithoutClock
 from coframe.viewer.sources.topic_messages import StampedMessage
+from coframe.viewer.sources.topic_names import VIEWER_NODE, resolve_topic
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -28,7 +30,7 @@ __all__ = ["RecordedSource"]
 _MAX_EXAMINED_SAMPLES = 2_000_000
 
 
-class RecordedSource:
+class RecordedSource(WithoutClock):
     """A recording as a source.
 
     Args:
@@ -38,6 +40,7 @@ class RecordedSource:
 
     mode: Mode = "recording"
     connection: Connection | None = None
+    node = VIEWER_NODE
 
     def __init__(self, recording: Recording, *, own: bool = False) -> None:
         self.buffer = recording.buffer
@@ -51,6 +54,10 @@ class RecordedSource:
     def topics(self) -> list[tuple[str, str]]:
         """Return the recorded topics, with their types."""
         return [(topic.name, topic.type) for topic in self._recording.topics.values()]
+
+    def resolve(self, topic: str) -> str:
+        """Return the full name of a topic; recorded names are used as they are, whether ROS 2 allows them or not."""
+        return topic if topic in self._recording.topics else resolve_topic(topic, self.node)
 
     def open(self, topic: str) -> RecordedMessages | None:
         """Return the messages on a topic, or None if it was not recorded."""

@@ -3,18 +3,22 @@
 
 from __future__ import annotations
 
+import time
 from typing import TYPE_CHECKING, Literal, Protocol
 
+from coframe.viewer.sources.topic_names import VIEWER_NODE, NodeName, resolve_topic
+
 if TYPE_CHECKING:
-    from collections.abc import Generator
+    from collections.abc import Callable, Generator
 
     from coframe.bags import Recording
     from coframe.buffer.buffer import Buffer
     from coframe.connection.connection import Connection
     from coframe.doctor import Report
+    from coframe.viewer.protocol.common import ClockState
     from coframe.viewer.sources.topic_messages import TopicMessages
 
-__all__ = ["BufferSource", "Mode", "ViewerSource"]
+__all__ = ["BufferSource", "Mode", "ViewerSource", "WithoutClock"]
 
 Mode = Literal["live", "recording", "buffer"]
 
@@ -29,6 +33,7 @@ class ViewerSource(Protocol):
         connection: The connection to the ROS graph, or None if there is none.
         recording: The recording, or None if there is none.
         span: The first and the last stamp in nanoseconds, or None if the transforms determine it.
+        node: The node relative to which names of topics are resolved.
     """
 
     mode: Mode
@@ -37,15 +42,47 @@ class ViewerSource(Protocol):
     connection: Connection | None
     recording: Recording | None
     span: tuple[int, int] | None
+    node: NodeName
 
     def topics(self) -> list[tuple[str, str]]:
         """Return the topics that exist now, with their types, in order."""
 
+    def resolve(self, topic: str) -> str:
+        """Return the full name of a topic.
+
+        Raises:
+            ViewerError: The name is not valid.
+        """
+
     def open(self, topic: str) -> TopicMessages | None:
-        """Return the messages on a topic, which the caller closes, or None if the topic does not exist."""
+        """Return the messages on a topic, which the caller closes, or None if the topic does not exist.
+
+        Args:
+            topic: The full name of the topic.
+
+        Raises:
+            WireError: The middleware cannot create the subscription.
+        """
 
     def refresh(self) -> None:
         """Follow changes such as new publishers; called about once per second."""
+
+    @property
+    def clock(self) -> ClockState:
+        """The clock of the source."""
+
+    def watch(self, newest: Callable[[str], int]) -> str:
+        """Return why everything has to start again, or "" to continue; called about five times per second.
+
+        Args:
+            newest: Returns the newest stamp of a frame in the buffer, or 0 if there is none.
+        """
+
+    def restart(self) -> None:
+        """Remove the transforms of the time before a jump. Static transforms stay."""
+
+    def running(self) -> int:
+        """Return the time in nanoseconds by which frames become stale: monotonic, without pauses of a simulation."""
 
     def examine(self) -> Generator[dict[str, Report] | None, None, None] | None:
         """Return a generator of doctor reports by namespace, or None if there is nothing to examine.
@@ -58,27 +95,52 @@ class ViewerSource(Protocol):
         """Release the resources that the source opened itself."""
 
 
-class BufferSource:
+class WithoutClock:
+    """The methods of sources whose time cannot jump."""
+
+    clock: ClockState = "system"
+
+    def watch(self, _newest: Callable[[str], int]) -> str:
+        """Return "": there is no reason to start again."""
+        return ""
+
+    def restart(self) -> None:
+        """Do nothing: nothing is older than a jump."""
+
+    def running(self) -> int:
+        """Return the time of the monotonic clock in nanoseconds."""
+        return time.monotonic_ns()
+
+
+class BufferSource(WithoutClock):
     """A buffer without messages.
 
     Args:
         buffer: The transforms.
         title: The title of the browser tab.
         mode: The kind of source that the page shows.
+        node: The node relative to which names of topics are resolved.
     """
 
     connection: Connection | None = None
     recording: Recording | None = None
     span: tuple[int, int] | None = None
 
-    def __init__(self, buffer: Buffer, title: str = "coframe", mode: Mode = "buffer") -> None:
+    def __init__(
+        self, buffer: Buffer, title: str = "coframe", mode: Mode = "buffer", node: NodeName = VIEWER_NODE
+    ) -> None:
         self.buffer = buffer
         self.title = title
         self.mode = mode
+        self.node = node
 
     def topics(self) -> list[tuple[str, str]]:
         """Return no topics."""
         return []
+
+    def resolve(self, topic: str) -> str:
+        """Return the full name of a topic."""
+        return resolve_topic(topic, self.node)
 
     def open(self, _topic: str) -> TopicMessages | None:
         """Return None: a buffer has no messages."""

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 __all__ = ["LiveMessages", "StampedMessage", "TopicMessages"]
 
+_PERIOD_WEIGHT = 0.2  # of the last interval between messages, if it is shorter than the usual one
+
 
 class StampedMessage(NamedTuple):
     """A message of a topic.
@@ -77,13 +79,24 @@ class LiveMessages:
         ros_type: The type of the messages.
         keep: The time for which messages are kept, in nanoseconds; the newest message is always kept.
         frame: Return the buffer's name for a frame in a message.
+        now: Return the time of messages without a stamp, in nanoseconds.
+
+    Attributes:
+        type: The type of the messages.
+        received_at: When the last message was received, on the monotonic clock in nanoseconds; 0 before the first one.
+        period: The usual interval between messages in nanoseconds; 0 while it is unknown.
     """
 
     MAX_BYTES = 64 << 20
     MAX_MESSAGES = 4000
 
     def __init__(
-        self, subscription: AdaptiveSubscription, ros_type: str, keep: int, frame: Callable[[str], str]
+        self,
+        subscription: AdaptiveSubscription,
+        ros_type: str,
+        keep: int,
+        frame: Callable[[str], str],
+        now: Callable[[], int] = time.time_ns,
     ) -> None:
         # Imported here because only message displays need the message classes.
         from coframe.messages import deserialize, find  # noqa: PLC0415
@@ -96,6 +109,8 @@ class LiveMessages:
         self._stamp_reader = stamp_reader(ros_type)
         self._keep = keep
         self._frame = frame
+        self._now = now
+        self.received_at, self.period = 0, 0.0
         self._stored: deque[_Stored] = deque()
         self._bytes = 0
         self._keys = itertools.count(1)
@@ -148,14 +163,24 @@ class LiveMessages:
             return
         with self._taking:
             samples = self._subscription.take()
+            if samples:
+                self._note_arrival(len(samples))
             with self._lock:
                 for sample in samples:
                     self._store(sample.data)
 
+    def _note_arrival(self, count: int) -> None:
+        now = time.monotonic_ns()
+        if self.received_at:
+            interval = (now - self.received_at) / count
+            # Between the longest interval and the last one, so that one long interval is forgotten.
+            self.period = max(interval, self.period + (interval - self.period) * _PERIOD_WEIGHT)
+        self.received_at = now
+
     def _store(self, data: bytes) -> None:
         stamp = self._stamp_reader.stamp(data) if self._stamp_reader else None
         if stamp is None or stamp <= 0:
-            stamp = time.time_ns()
+            stamp = self._now()
         # Times must not decrease: a late message is placed at the newest time.
         newest = self._stored[-1].time if self._stored else stamp
         if stamp < newest - self._keep:  # Time jumped back, for example because a simulation was restarted.

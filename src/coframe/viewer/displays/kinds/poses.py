@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections import deque
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, TypedDict
 
 from coframe.viewer.displays._drawing import (
@@ -123,6 +124,11 @@ _SHAPE = (
     NumberOption("Axes Length", 0.3, 0.001, 100.0, 0.05, "m"),
     NumberOption("Axes Radius", 0.02, 0.0005, 10.0, 0.005, "m"),
 )
+# RViz 2 nests the options of the shape of an Odometry display; those of poses are not nested.
+_NESTED_SHAPE = (
+    replace(_SHAPE[0], key="Shape/Value", label="Shape"),
+    *(replace(option, key=f"Shape/{option.key}", label=option.key, aliases=(option.key,)) for option in _SHAPE[1:]),
+)
 _COVARIANCE_KEY = "Covariance/Value"
 _COVARIANCE = (
     FlagOption(_COVARIANCE_KEY, True, label="Covariance"),
@@ -175,7 +181,7 @@ ODOMETRY = DisplayRow(
     rank=3,
     guide="Odometry with a trail of the poses that differ by the tolerances, and covariances as PoseWithCovariance",
     messages={"nav_msgs/msg/Odometry": OdometryRenderer},
-    options=(*_SHAPE, NumberOption("Keep", 100.0, 1.0, 1000.0, 10.0, sets="keep"), *_COVARIANCE),
+    options=(*_NESTED_SHAPE, NumberOption("Keep", 100.0, 1.0, 1000.0, 10.0, sets="keep"), *_COVARIANCE),
     shapes=(OdometryShape,),
     projected=True,
 )
