@@ -228,6 +228,11 @@ PROMISED = {
         },
         "chosen projected solid",
     ),
+    "InteractiveMarkers": (
+        ("visualization_msgs/msg/InteractiveMarkerInit", "visualization_msgs/msg/InteractiveMarkerUpdate"),
+        {"Show Descriptions": True, "Show Axes": False, "Show Visual Aids": False, "Enable Transparency": True},
+        "chosen solid",
+    ),
     "JointTrajectory": (
         ("trajectory_msgs/msg/JointTrajectory",),
         {"Color": "#e93d82", "Alpha": 1.0, "Show End": True},
@@ -346,6 +351,9 @@ def sample(ros_type):  # noqa: PLR0911 - one per kind of message
     if name == "MarkerArray":
         made.markers = [sample("visualization_msgs/msg/Marker")[0]]
         return made, "markers"
+    if name.startswith("InteractiveMarker"):
+        made.markers, made.seq_num = [header(find("visualization_msgs/msg/InteractiveMarker")(name="grip"))], 1
+        return made, "interactive"
     header(made)
     if name == "Marker":
         made.type, made.scale.x, made.color.a = 1, 1.0, 1.0

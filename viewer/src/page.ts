@@ -24,6 +24,8 @@ import { exposeProbe } from "./probe";
 import type { BinaryMessage, ServerMessage } from "./protocol/messages";
 import { openReplay } from "./replay/source";
 import { Selector } from "./displays/selector";
+import { Interaction } from "./scene/interaction";
+import { InteractiveDisplay } from "./displays/interactive";
 import { NodesView } from "./scene/nodes";
 import { RvizPanel } from "./panels/rviz";
 import { ScenePanel } from "./panels/scene";
@@ -46,6 +48,10 @@ export function showPage(source: MessageSource): void {
   const view = new View(model, theme, byId("canvas") as HTMLCanvasElement, byId("labels"), byId("panes"));
   const displays = new Displays(model, view, theme);
   const nodes = new NodesView(model, view, theme);
+  if (source.live) {
+    const interactive = (): InteractiveDisplay[] => displays.list.filter((one) => one instanceof InteractiveDisplay);
+    new Interaction(view, model, interactive, view.renderer.canvas);
+  }
   const scene = new ScenePanel(model, nodes, () => showScene());
   const toolSettings = new ToolSettings();
   const tree = new TreePanel(model);

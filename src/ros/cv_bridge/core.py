@@ -37,9 +37,7 @@ class CvBridge:
 
     def __init__(self) -> None:
         generic = [
-            encodings.Encoding(depth, channels, "")
-            for depth in range(len(encodings.DEPTHS))
-            for channels in _CHANNELS
+            encodings.Encoding(depth, channels, "") for depth in range(len(encodings.DEPTHS)) for channels in _CHANNELS
         ]
         self.cvtype_to_name = {encodings.cv_type(encoding): encoding.name for encoding in generic}
         self.cvdepth_to_numpy_depth = dict(enumerate(encodings.DEPTHS))

@@ -34,6 +34,14 @@ export class MarkersDisplay extends MessageDisplay<Shapes, "Marker" | "MarkerArr
     super(id, config, context);
   }
 
+  private get tools(): MarkerTools {
+    return {
+      meshes: this.meshes,
+      redraw: () => this.context.redraw(),
+      problem: (text) => (this.status = { state: "error", text }),
+    };
+  }
+
   /** The namespaces received so far. */
   readonly namespaces = new Set<string>();
   /** Called when a new namespace is received. */
@@ -73,11 +81,8 @@ export class MarkersDisplay extends MessageDisplay<Shapes, "Marker" | "MarkerArr
     const group = new THREE.Group();
     if (description.kind !== "markers") return group;
     for (const item of description.items) {
-      if (!this.isShown(item.ns) || !finite(item)) continue;
-      const object = this.marker(item, payload);
+      const object = this.isShown(item.ns) ? markerObject(item, payload, this.tools) : null;
       if (!object) continue;
-      object.position.fromArray(item.pose);
-      object.quaternion.fromArray(item.pose, 3).normalize();
       object.userData.item = item;
       object.userData.marker = { ns: item.ns, id: item.id, type: item.type };
       group.add(object);
@@ -114,66 +119,83 @@ export class MarkersDisplay extends MessageDisplay<Shapes, "Marker" | "MarkerArr
       if (!box.isEmpty()) yield { object: child, point: box.getCenter(new THREE.Vector3()), index: null };
     }
   }
+}
 
-  private marker(item: DrawableMarker, payload: Float32Array): THREE.Object3D | null {
-    const points = slice(payload, item.points, 3);
-    const colors = slice(payload, item.colors, 4);
-    switch (item.type) {
-      case 0:
-        return arrow(item, points);
-      case 1:
-        return solid(new THREE.BoxGeometry(1, 1, 1), item);
-      case 2:
-        return solid(new THREE.SphereGeometry(0.5, 24, 16), item);
-      case 3:
-        return solid(new THREE.CylinderGeometry(0.5, 0.5, 1, 32).rotateX(Math.PI / 2), item);
-      case 4:
-        return lines(item, pairs(points, 3), pairs(colors, 4));
-      case 5:
-        return lines(item, points, colors);
-      case 6:
-        return instanced(new THREE.BoxGeometry(1, 1, 1), item, points, colors);
-      case 7:
-        return instanced(new THREE.SphereGeometry(0.5, 12, 8), item, points, colors);
-      case 8:
-        return squares(item, points, colors);
-      case 9:
-        return text(item);
-      case 10:
-        return this.mesh(item);
-      case 11:
-        return triangles(item, points, colors);
-      case 12:
-        return arrowStrip(item, points);
-      default:
-        this.status = { state: "error", text: `Unknown marker type ${item.type}. Known types: 0 to 12.` };
-        return null;
-    }
+/** What markers need besides their description. */
+export interface MarkerTools {
+  meshes: Meshes;
+  redraw(): void;
+  /** Reports why a part is not drawn. */
+  problem(text: string): void;
+}
+
+/** The object of a marker, without its pose; null if it cannot be drawn. */
+export function markerObject(item: MarkerItem, payload: Float32Array, tools: MarkerTools): THREE.Object3D | null {
+  if (!finite(item)) return null;
+  const object = shapeOf(item, payload, tools);
+  object?.position.fromArray(item.pose);
+  object?.quaternion.fromArray(item.pose, 3).normalize();
+  return object;
+}
+
+function shapeOf(item: DrawableMarker, payload: Float32Array, tools: MarkerTools): THREE.Object3D | null {
+  const points = slice(payload, item.points, 3);
+  const colors = slice(payload, item.colors, 4);
+  switch (item.type) {
+    case 0:
+      return arrow(item, points);
+    case 1:
+      return solid(new THREE.BoxGeometry(1, 1, 1), item);
+    case 2:
+      return solid(new THREE.SphereGeometry(0.5, 24, 16), item);
+    case 3:
+      return solid(new THREE.CylinderGeometry(0.5, 0.5, 1, 32).rotateX(Math.PI / 2), item);
+    case 4:
+      return lines(item, pairs(points, 3), pairs(colors, 4));
+    case 5:
+      return lines(item, points, colors);
+    case 6:
+      return instanced(new THREE.BoxGeometry(1, 1, 1), item, points, colors);
+    case 7:
+      return instanced(new THREE.SphereGeometry(0.5, 12, 8), item, points, colors);
+    case 8:
+      return squares(item, points, colors);
+    case 9:
+      return text(item);
+    case 10:
+      return meshOf(item, tools);
+    case 11:
+      return triangles(item, points, colors);
+    case 12:
+      return arrowStrip(item, points);
+    default:
+      tools.problem(`Unknown marker type ${item.type}. Known types: 0 to 12.`);
+      return null;
   }
+}
 
-  private mesh(item: DrawableMarker): THREE.Object3D {
-    const group = new THREE.Group();
-    group.scale.set(...item.scale);
-    if (!item.mesh) {
-      if (item.mesh_problem) this.status = { state: "error", text: item.mesh_problem };
-      return group;
-    }
-    this.meshes.load(item.mesh, item.mesh).then(
-      ({ object, colored }) => {
-        if (!(colored && item.use_materials !== false))
-          object.traverse((part) => {
-            if ((part as Partial<THREE.Mesh>).isMesh) (part as THREE.Mesh).material = material(item);
-          });
-        for (const part of materialsOf(object)) part.side = THREE.DoubleSide;
-        group.add(object);
-        this.context.redraw();
-      },
-      (error: unknown) => {
-        this.status = { state: "error", text: error instanceof Error ? error.message : String(error) };
-      },
-    );
+function meshOf(item: DrawableMarker, tools: MarkerTools): THREE.Object3D {
+  const group = new THREE.Group();
+  group.scale.set(...item.scale);
+  if (!item.mesh) {
+    if (item.mesh_problem) tools.problem(item.mesh_problem);
     return group;
   }
+  tools.meshes.load(item.mesh, item.mesh).then(
+    ({ object, colored }) => {
+      if (!(colored && item.use_materials !== false))
+        object.traverse((part) => {
+          if ((part as Partial<THREE.Mesh>).isMesh) (part as THREE.Mesh).material = material(item);
+        });
+      for (const part of materialsOf(object)) part.side = THREE.DoubleSide;
+      group.add(object);
+      tools.redraw();
+    },
+    (error: unknown) => {
+      tools.problem(error instanceof Error ? error.message : String(error));
+    },
+  );
+  return group;
 }
 
 /** A marker whose pose and scale are finite. */

@@ -13,6 +13,7 @@ import { DiagnosticsDisplay } from "./diagnostics";
 import { FixDisplay } from "./fixes";
 import { GridDisplay } from "./grid";
 import { ImageDisplay } from "./image";
+import { InteractiveDisplay } from "./interactive";
 import { EffortDisplay, TrajectoryDisplay } from "./joints";
 import { MapDisplay } from "./map";
 import { MarkersDisplay } from "./markers";
@@ -46,6 +47,7 @@ export const MAKERS: Readonly<Record<DisplayClass, Maker>> = {
   Illuminance: CloudDisplay,
   Image: ImageDisplay,
   Imu: ImuDisplay,
+  InteractiveMarkers: InteractiveDisplay,
   JointTrajectory: TrajectoryDisplay,
   LaserScan: CloudDisplay,
   Map: MapDisplay,

@@ -35,6 +35,11 @@ export class Picker {
         : (2 * distance * Math.tan((camera.fov * Math.PI) / 360)) / height;
   }
 
+  /** The ray through the pixel, in the scene. */
+  get ray(): THREE.Ray {
+    return this.raycaster.ray;
+  }
+
   /** The size in meters of a pixel at a distance. */
   private pixels: (distance: number) => number = () => 0;
 

@@ -230,6 +230,12 @@ export class View {
     this.renderer.camera.lookAt(new THREE.Vector3(...point).sub(new THREE.Vector3(...this.framePoses.origin)));
   }
 
+  /** The ray through the pixel under the pointer, in the scene. */
+  rayAt(event: PointerEvent): THREE.Ray {
+    this.aim(event);
+    return this.picker.ray.clone();
+  }
+
   groundAt(event: MouseEvent): THREE.Vector3 | null {
     this.aim(event);
     return this.picker.ground(-this.framePoses.origin[2]);

@@ -194,6 +194,18 @@ async def _publish_static(client: ClientState, request: client_messages.PublishS
     )
 
 
+async def _use_control(client: ClientState, request: client_messages.UseControl) -> None:
+    subscription = client.subscriptions.get(request.id)
+    if subscription is None:
+        raise BadRequestError("nothing was published: the display of the interactive marker was removed")
+    topic = f"{subscription.topic.rpartition('/')[0]}/feedback"
+    try:
+        tools = client.viewer.tool_publisher()
+        await _in_background(client, tools.publish_feedback, topic, request)
+    except (ViewerError, WireError) as error:
+        raise BadRequestError(f"the feedback was not published: {error}", error.hint) from None
+
+
 def _check_fixed_frame(client: ClientState, frame: str) -> None:
     if frame != client.fixed:
         raise BadRequestError(
@@ -292,6 +304,7 @@ _HANDLERS: dict[type, Callable[[ClientState, Any], Awaitable[ServerMessage | Non
     client_messages.Step: _step,
     client_messages.Subscribe: _subscribe,
     client_messages.Unsubscribe: _unsubscribe,
+    client_messages.UseControl: _use_control,
     client_messages.UseWidget: _use_widget,
     **CONTROL_HANDLERS,
     **PANEL_HANDLERS,

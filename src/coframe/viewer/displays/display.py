@@ -20,8 +20,9 @@ from coframe.time import SECOND
 from coframe.viewer._failures import report_failure
 from coframe.viewer.displays._drawing import FIXED_FRAME
 from coframe.viewer.displays._renderers import UnfinishedError
-from coframe.viewer.displays.rows import make_renderer
+from coframe.viewer.displays.rows import make_renderer, row_of
 from coframe.viewer.protocol.encoding import EntryPose, set_owner
+from coframe.viewer.sources.topic_messages import StampedMessage
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
     from coframe.viewer.displays._renderers import Renderer
     from coframe.viewer.displays.resources import Resources
     from coframe.viewer.protocol.common import DisplayState
-    from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
+    from coframe.viewer.sources.topic_messages import TopicMessages
 
 __all__ = ["Display", "Status"]
 
@@ -152,6 +153,9 @@ class Display:
         self._resources = resources
         self._renderer: Renderer = make_renderer(messages, options, resources)
         self.is_unfinished = False
+        row = row_of(messages.type, options)
+        draws = row is not None and row.draws_without_messages and resources.connection is not None
+        self._first = StampedMessage(0, 0, lambda: None) if draws else None
         self._sequences = itertools.count(1)
         self._last_key: int | None = None  # The key of the message that was drawn last.
         self._work: Future[_Rendered | None] | None = None
@@ -223,7 +227,7 @@ class Display:
         if self.messages.pending():
             self._work = self._executor.submit(self._find_and_render, at, now)
             return
-        message = self.messages.at(at)
+        message = self.messages.at(at) or self._first
         if message is None:
             self._show_nothing(at)
         elif self._has_changed(message, now, at):
@@ -231,7 +235,7 @@ class Display:
 
     def _find_and_render(self, at: int, now: int) -> _Rendered | None:
         """Find the message outside the server's thread, because this is slow, or None if nothing changed."""
-        message = self.messages.at(at)
+        message = self.messages.at(at) or self._first
         if message is None or not self._has_changed(message, now, at):
             return None
         return _render(self._renderer, message, now, at)

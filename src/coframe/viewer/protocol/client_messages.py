@@ -213,6 +213,34 @@ class PublishStatic:
 
 
 @dataclass(frozen=True)
+class UseControl:
+    """Reports that the user uses a control of an interactive marker, which is published as its feedback.
+
+    Attributes:
+        id: The display.
+        marker: The name of the marker.
+        control: The name of the control.
+        event: What happens.
+        frame: The frame of the marker.
+        position: The position of the marker in its frame.
+        quaternion: The orientation of the marker in its frame, normalized.
+        menu: The id of the menu entry for ``event="menu"``.
+        point: The point under the pointer in the frame of the marker, or None if it is unknown.
+    """
+
+    type: ClassVar[str] = "control"
+    id: Id
+    marker: str
+    control: str
+    event: Literal["pose", "menu", "button", "down", "up"]
+    frame: str
+    position: Position
+    quaternion: tuple[Unit, Unit, Unit, Unit]
+    menu: Id = 0
+    point: Position | None = None
+
+
+@dataclass(frozen=True)
 class LoadRviz:
     """Reads an .rviz file.
 
@@ -457,6 +485,7 @@ ClientMessage: TypeAlias = (
     | PublishPoint
     | PublishPose
     | PublishStatic
+    | UseControl
     | LoadRviz
     | SaveRviz
     | OpenFiles

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     from coframe.connection.connection import Connection
     from coframe.connection.message_streams import MessagePublisher
+    from coframe.viewer.protocol.client_messages import UseControl
     from coframe.wire.static_broadcaster import StaticBroadcaster
 
 __all__ = ["ToolPublisher"]
@@ -30,6 +31,8 @@ _MAX_PUBLISHERS = 16
 # How long a new publisher waits for discovered subscriptions to match, in seconds.
 _MATCH_TIMEOUT, _MATCH_STEP = 1.0, 0.01
 _NORM_TOLERANCE = 1e-3
+# The events of InteractiveMarkerFeedback.
+_EVENTS = {"pose": 1, "menu": 2, "button": 3, "down": 4, "up": 5}
 
 
 class ToolPublisher:
@@ -134,6 +137,31 @@ class ToolPublisher:
                 self._statics = connection.participant.static_broadcaster(connection.node, topic)
             self._statics.send([message])
             return self._statics.matched
+
+    def publish_feedback(self, topic: str, used: UseControl) -> int:
+        """Publish the use of a control as InteractiveMarkerFeedback, and return the number of subscriptions.
+
+        Raises:
+            ViewerError: The topic or the quaternion is invalid.
+            WireError: The message cannot be sent.
+        """
+        norm = math.hypot(*used.quaternion)
+        if abs(norm - 1.0) > _NORM_TOLERANCE:
+            raise ViewerError(f"the quaternion has the norm {norm:.4g}, but must have 1")
+        with self._lock:
+            message = self._message("visualization_msgs/msg/InteractiveMarkerFeedback", "")
+            message.header.frame_id = used.frame
+            message.client_id = f"{self._connection.node.name}/{used.id}"
+            message.marker_name, message.control_name = used.marker, used.control
+            message.event_type = _EVENTS[used.event]
+            message.menu_entry_id = used.menu
+            position, orientation = message.pose.position, message.pose.orientation
+            position.x, position.y, position.z = used.position
+            orientation.x, orientation.y, orientation.z, orientation.w = (part / norm for part in used.quaternion)
+            if used.point is not None:
+                message.mouse_point_valid = True
+                message.mouse_point.x, message.mouse_point.y, message.mouse_point.z = used.point
+            return self._publish(topic, message)
 
     def close(self) -> None:
         """Remove all publishers."""

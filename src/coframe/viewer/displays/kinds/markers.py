@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from coframe.viewer.displays.resources import MeshUrl, Resources
     from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 
-__all__ = ["MARKER", "MARKER_ARRAY", "MarkerItem", "MarkerSet", "MarkersShape"]
+__all__ = ["MARKER", "MARKER_ARRAY", "MarkerItem", "MarkerSet", "MarkersShape", "marker_item"]
 
 _WITH_POINTS = {4, 5, 6, 7, 8}  # lines, cubes, spheres and points, whose positions have no scale
 _ADD, _DELETE, _DELETE_ALL = 0, 2, 3
@@ -312,6 +312,17 @@ def _item(
         colors=(colors_offset, len(colors)) if colors else None,
     )
     return item, colors_offset + 4 * len(colors)
+
+
+def marker_item(marker: Any, numbers: list[Any], mesh_url: MeshUrl) -> MarkerItem:
+    """Return the description of a marker, and add its points and colors to the numbers of a drawing."""
+    points, pose = _near(marker)
+    colors = [(color.r, color.g, color.b, color.a) for color in marker.colors]
+    item, _ = _item(marker, pose, points, colors, sum(len(part) for part in numbers))
+    numbers += [points.reshape(-1), np.array(colors, np.float64).reshape(-1)]
+    if marker.mesh_resource:
+        item["mesh"], item["mesh_problem"] = mesh_url(marker.mesh_resource)
+    return item
 
 
 def _size(marker: Any) -> int:
