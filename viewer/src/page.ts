@@ -24,7 +24,7 @@ import { exposeProbe } from "./probe";
 import type { BinaryMessage, ServerMessage } from "./protocol/messages";
 import { openReplay } from "./replay/source";
 import { Selector } from "./displays/selector";
-import { Interaction } from "./scene/interaction";
+import { Interaction } from "./displays/interaction";
 import { InteractiveDisplay } from "./displays/interactive";
 import { NodesView } from "./scene/nodes";
 import { RvizPanel } from "./panels/rviz";

@@ -96,7 +96,7 @@ describe("display options", () => {
 
   it("set the fields of a subscription, with defaults for invalid values", () => {
     const scan = new Options<"LaserScan">({ "Color Transformer": "FlatColor", Axis: 1 }, DISPLAYS.LaserScan.options);
-    expect(scan.subscription()).toEqual({ color_by: "flat", axis: "z", decay: 0 });
+    expect(scan.subscription()).toEqual({ color_by: "flat", channel: "intensity", axis: "z", decay: 0 });
     const odometry = new Options<"Odometry">({ Keep: 12.4 }, DISPLAYS.Odometry.options);
     expect(odometry.subscription()).toEqual({ keep: 12 });
     expect(new Options<"Path">({}, DISPLAYS.Path.options).subscription()).toEqual({});

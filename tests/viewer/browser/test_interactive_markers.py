@@ -107,6 +107,7 @@ def test_controls_are_used_and_their_feedback_is_published(server, domain_id, vi
         file.write_text(RvizConfig().merged([shown], {"fixed_frame": "map"}, top).text())
         page = open_page(view(ros, rviz=file).url)
         page.until("coframe.displays?.grip?.messages?.[0]?.controls.length === 4")
+        page.until("coframe.camera.mode === 'top' && coframe.updates > 3")
         marker = "coframe.displays.grip.messages.at(-1)"
 
         def pixel(name):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The InteractiveMarkers display: markers with controls, which `scene/control_drag.ts` moves. */
+/** The InteractiveMarkers display: markers with controls, which `control_drag.ts` moves. */
 
 import * as THREE from "three";
 import type { Meshes } from "../scene/meshes";

@@ -228,7 +228,7 @@ class UseControl:
         point: The point under the pointer in the frame of the marker, or None if it is unknown.
     """
 
-    type: ClassVar[str] = "control"
+    type: ClassVar[str] = "use_control"
     id: Id
     marker: str
     control: str

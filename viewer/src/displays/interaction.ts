@@ -2,13 +2,13 @@
 /** The pointer on controls of interactive markers: drags, clicks and menus, which are reported to the server. */
 
 import * as THREE from "three";
-import { MODE, VIEW_FACING, type Control, type InteractiveDisplay } from "../displays/interactive";
+import { MODE, VIEW_FACING, type Control, type InteractiveDisplay } from "./interactive";
 import type { Model } from "../model/model";
 import type { MenuItem, UseControl, Vector } from "../protocol/messages";
 import { h } from "../util/dom";
 import { toast } from "../util/toast";
 import { dragged, type DragStart } from "./control_drag";
-import type { View } from "./view";
+import type { View } from "../scene/view";
 
 const FEEDBACK_INTERVAL_MS = 50;
 const CLICK_PX = 5;
@@ -140,7 +140,7 @@ export class Interaction {
   ): void {
     const frame = marker.parent as THREE.Object3D;
     this.model.send({
-      type: "control",
+      type: "use_control",
       id: display.id,
       marker: shape.name,
       control: item.name,

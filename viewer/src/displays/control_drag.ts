@@ -2,7 +2,7 @@
 /** How a dragged control moves its marker: the mathematics of each mode of interaction, in the scene. */
 
 import * as THREE from "three";
-import { MODE } from "../displays/interactive";
+import { MODE } from "./interactive";
 
 /** The state at the beginning of a drag. */
 export interface DragStart {
