@@ -224,7 +224,7 @@ def messages():
         made = image(encoding, pixels)
         if encoding.startswith("nv"):
             made.height = 6
-        yield f"image/{encoding}", "Image", made, {"Width": 60}
+        yield f"image/e_{encoding}", "Image", made, {"Width": 60}
     compressed = make("sensor_msgs/msg/CompressedImage", "camera", format="16UC1; compressedDepth png")
     compressed.data = array("B", struct.pack("<iff", 0, 0.0, 0.0) + depth_png(DEPTHS))
     yield "image/compressedDepth", "Image", compressed, {"Width": 60}
@@ -414,9 +414,9 @@ def test_clouds_are_colored_by_any_channel(shown):
 
 @pytest.mark.parametrize("encoding", IMAGES)
 def test_images_of_every_encoding_have_their_values(shown, encoding):
-    found = drawn(shown, f"image/{encoding}")
+    found = drawn(shown, f"image/e_{encoding}")
     assert (found["width"], found["height"], found["value"]) == (8, 6, IMAGES[encoding][1])
-    shown.page.until(f"coframe.displays['image/{encoding}'].messages.at(-1)?.painted")
+    shown.page.until(f"coframe.displays['image/e_{encoding}'].messages.at(-1)?.painted")
 
 
 def test_depths_have_a_range_and_become_clouds(shown):
@@ -436,7 +436,7 @@ def test_detected_objects(shown):
     (box,) = drawn(shown, "boxes")["boxes"]
     np.testing.assert_allclose(box["center"], [12, 0, 0], atol=1e-4)
     assert drawn(shown, "rectangle")["rectangles"] == [[4, 3, 0, 2, 2]]
-    shown.page.until("coframe.displays['image/mono8'].messages.at(-1)?.rectangles === 2")
+    shown.page.until("coframe.displays['image/e_mono8'].messages.at(-1)?.rectangles === 2")
 
 
 def test_particles_show_their_weights(shown):
