@@ -248,7 +248,7 @@ def test_translation_that_is_not_a_vector3(core):
         core.set_transform_static(looks_alike, "robot")
 
 
-def test_rotation_that_is_not_a_quaternion_causes_a_warning(core):
+def test_rotation_that_is_not_aquaternion_causes_a_warning(core):
     looks_alike = SimpleNamespace(
         header=SimpleNamespace(stamp=Time(seconds=1), frame_id="a"),
         child_frame_id="f",

@@ -1,15 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Packages that contain solutions of the lab, which graded programs cannot import."""
+"""Programs that are being graded, and the packages with solutions of the lab, which they cannot import."""
 
 from __future__ import annotations
 
 import os
 import sys
 
-__all__ = ["GRADED_VARIABLE", "SOLUTIONS", "forbid_graded_program", "refusal"]
+__all__ = ["GRADED_VARIABLE", "SOLUTIONS", "forbid_graded_program", "is_graded", "refusal"]
 
 GRADED_VARIABLE = "COFRAME_GRADED"  # environment variable that is set for graded programs
 SOLUTIONS = ("coframe.lab", "coframe.course")
+
+
+def is_graded() -> bool:
+    """Return whether this process is a program that is being graded."""
+    return GRADED_VARIABLE in os.environ
 
 
 def refusal(package: str) -> str:
@@ -25,6 +30,6 @@ def forbid_graded_program(package: str) -> None:
     Raises:
         ImportError: This process is a graded program.
     """
-    if GRADED_VARIABLE in os.environ:
+    if is_graded():
         print(refusal(package), file=sys.stderr, flush=True)  # noqa: T201 - the output of the program is its protocol
         raise ImportError(refusal(package), name=package)

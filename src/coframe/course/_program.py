@@ -32,6 +32,7 @@ _OUTPUT_VIOLATION = f"The program printed more than {MAX_OUTPUT >> 20} MB and wa
 _STOP_TIMEOUT = 3.0  # seconds between SIGINT and SIGKILL
 _LAST_LINES = 8
 _TRACEBACK_LINE = re.compile(r'^  File "([^"\n]{1,1000})", line (\d{1,7})', re.MULTILINE)
+_EXCEPTION = re.compile(r"[A-Za-z_][\w.]{0,200}(?:: |$)")  # not indented, in contrast to the lines of the code
 _MAX_KILL_ATTEMPTS = 50
 _SIGNAL_OFFSET = 128  # added to the number of the signal that ended a program in namespaces
 _BLOCK_BYTES = 512  # bytes per block, the unit of file sizes on disk
@@ -186,7 +187,7 @@ class StudentProgram:
         last = self.last_lines()
         if code == 0:
             return "The program exited by itself. Call rclpy.spin(node)."
-        error = next((line for line in reversed(last) if line.strip()), "")
+        error = self._exception() or next((line for line in reversed(last) if line.strip()), "")
         if code < 0 or code > _SIGNAL_OFFSET:
             return f"The program was terminated by signal {-code if code < 0 else code - _SIGNAL_OFFSET}."
         line = self._failed_line()
@@ -206,6 +207,13 @@ class StudentProgram:
         _, found, traceback = self._end_of_output(40_000).rpartition("Traceback (most recent call last):")
         lines = _TRACEBACK_LINE.findall(traceback) if found else []
         return next((int(line) for name, line in reversed(lines) if Path(name).name == self.file.name), None)
+
+    def _exception(self) -> str:
+        """Return the exception of the last traceback, with the first line of its message, or "" if there is none."""
+        _, found, traceback = self._end_of_output(40_000).rpartition("Traceback (most recent call last):")
+        lines = traceback.splitlines()[1:] if found else []
+        named = (line for line in lines if _EXCEPTION.match(line))
+        return next(named, "")
 
     def _end_of_output(self, size: int) -> str:
         try:

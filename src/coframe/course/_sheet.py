@@ -26,7 +26,7 @@ class Fact:
         earned: The earned points.
         expected: The behavior of a correct solution.
         observed: The observed behavior, or "" if all points were earned.
-        cause: The likely cause of lost points.
+        cause: The likely cause of lost points, or "" if it is not known.
         read: Where to read about it.
     """
 
@@ -97,7 +97,7 @@ class Sheet:
             good: Whether the property is fulfilled; a number from 0 to 1 for partial credit.
             expected: The behavior of a correct solution.
             observed: The observed behavior.
-            cause: The likely cause if it is not fulfilled.
+            cause: The likely cause if it is not fulfilled, or "" if it is not known.
             read: Where to read about it.
 
         Returns:
@@ -127,10 +127,10 @@ class Sheet:
             fact.earned, fact.observed, fact.cause = 0.0, observed, ""
 
     def set_cause(self, first: int, cause: str) -> None:
-        """Set the cause of all lost points from fact index `first` on."""
+        """Set the cause of all lost points from fact index `first` on whose own cause is not known."""
         for fact in self.facts[first:]:
             if fact.earned < fact.points:
-                fact.cause = cause
+                fact.cause = fact.cause or cause
 
     @property
     def points(self) -> float:

@@ -12,7 +12,8 @@ from builtin_interfaces.msg import Time
 from coframe.course._patience import FairTimeout
 from coframe.time import MILLISECOND, SECOND
 from geometry_msgs.msg import TransformStamped
-from rcl_interfaces.srv import GetParameters
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import GetParameters, SetParameters
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
@@ -36,6 +37,7 @@ _NOT_JOINED_VIOLATION = "The program does not join the ROS graph. Call rclpy.ini
 _NODE = "lab_check"
 _RECORDER = "/coframe_record"  # the node of coframe record, which runs next to all programs
 _CLOCK = "/clock"
+_USE_SIM_TIME = "use_sim_time"
 _START_TIMEOUT = 15.0  # time limit for the node of a program to join the graph; see Patience
 _RESPONSE = 1.0  # seconds that a node may take for one callback, see Patience
 _MATCHING = 2.0  # seconds that a subscription may need to find a publisher, see Patience
@@ -48,10 +50,17 @@ _UNRESPONSIVE_STEP_TIME = 0.01  # seconds of real time per step for a node that 
 
 
 class Received(NamedTuple):
-    """A message and the simulated time at which it arrived, in nanoseconds."""
+    """A message with the times at which it arrived.
+
+    Attributes:
+        time: The simulated time in nanoseconds.
+        message: The message.
+        arrived: The real time of a monotonic clock, in seconds.
+    """
 
     time: int
     message: Any
+    arrived: float = 0.0
 
 
 class World:
@@ -118,7 +127,7 @@ class World:
 
         def store(message: Any) -> None:
             self._messages += 1
-            received.append(Received(self.now, message))
+            received.append(Received(self.now, message, time.monotonic()))
 
         qos = _qos(1000, latched=latched, reliable=latched)
         self._subscriptions.append(self._node.create_subscription(message_class, topic, store, qos))
@@ -142,6 +151,33 @@ class World:
             own = next((info for info in publishers if info.node_name == _NODE), None)
             publishers = [info for info in publishers if info is not own]
         return publishers
+
+    def has_subscription(self, topic: str) -> bool:
+        """Return whether the running program subscribes to a topic, to which the world itself does not subscribe."""
+        return self._node.count_subscribers(topic) > 0
+
+    def subscribed_topics(self, type_name: str) -> list[str]:
+        """Return the topics of a type to which nodes of the running program subscribe."""
+        found = set()
+        for name, space in self._node.get_node_names_and_namespaces():
+            if name != _NODE:
+                topics = self._node.get_subscriber_names_and_types_by_node(name, space)
+                found |= {topic for topic, types in topics if type_name in types}
+        return sorted(found)
+
+    def published_topics(self, type_name: str) -> list[str]:
+        """Return the topics of a type on which the running program publishes, without those of the world."""
+        topics = dict(self._node.get_topic_names_and_types())
+        return sorted(topic for topic, types in topics.items() if type_name in types and self.publishers_of(topic))
+
+    def output_topic(self, topic: str, type_name: str) -> str:
+        """Return the topic on which the running program publishes the messages of a task.
+
+        It is the topic of the task, unless the program publishes messages of that type only on one other topic.
+        """
+        self.wait_until(lambda: bool(self.publishers_of(topic) or self.published_topics(type_name)), _MATCHING)
+        others = self.published_topics(type_name)
+        return others[0] if len(others) == 1 and not self.publishers_of(topic) else topic
 
     def intruders(self) -> dict[str, list[str]]:
         """Return the topics of the world on which the running program publishes, with the names of its nodes."""
@@ -207,6 +243,51 @@ class World:
             if self.now % _GRAPH_PERIOD == 0:
                 self._find_intruders()
 
+    def jump(self, seconds: float) -> None:
+        """Advance the simulated clock in a single step, as on a busy robot, where a timer is late."""
+        if self._program is not None and self._program.is_running():
+            self.now += round(seconds * SECOND)
+            self._clock.publish(Clock(clock=stamp_of(self.now)))
+            self.settle()
+
+    def use_system_time(self, seconds: float, is_enough: Callable[[], bool]) -> None:
+        """Let the program run with the clock of the system, for a time in seconds or until a condition is true.
+
+        On this clock, two calls of now() return different times, even in one callback.
+        """
+        clients = [self._node.create_client(SetParameters, f"{name}/set_parameters") for name in self._other_nodes()]
+        value = ParameterValue(type=ParameterType.PARAMETER_BOOL, bool_value=False)
+        request = SetParameters.Request(parameters=[Parameter(name=_USE_SIM_TIME, value=value)])
+        try:
+            if self._is_responding():
+                futures = [client.call_async(request) for client in clients if client.wait_for_service(_RESPONSE)]
+                self.wait_until(lambda: all(future.done() for future in futures), _RESPONSE)
+                self.wait_until(is_enough, seconds)
+        finally:
+            for client in clients:
+                self._node.destroy_client(client)
+
+    def responds(self, seconds: float) -> bool:
+        """Return whether the program responds to a request within a time in seconds, which is waited for in any case.
+
+        A program with a single thread does not respond while a callback waits.
+        """
+        futures = [probe.call_async(_probe_request()) for probe in self._probes]
+        patience = FairTimeout(seconds, self._waiting_time)
+        deadline = time.monotonic() + seconds
+        while not patience.is_over() and not all(future.done() for future in futures):
+            self._spin(_QUIET_TIME)
+        answered = all(future.done() for future in futures)
+        self._spin(max(0.0, deadline - time.monotonic()))
+        return answered
+
+    def is_blocked(self) -> bool:
+        """Return whether the node of the running program has stopped to respond, for example because it never spins."""
+        return bool(self._probes) and not self._is_responding()
+
+    def _is_responding(self) -> bool:
+        return self._missed_steps < _MAX_MISSING_RESPONSES
+
     def wait_until(self, is_true: Callable[[], bool], seconds: float) -> None:
         """Wait until a condition is true, without advancing the clock; at most a few seconds, see Patience."""
         patience = FairTimeout(seconds, self._waiting_time)
@@ -219,7 +300,7 @@ class World:
         # received the clock, the second one that the timers triggered by it have run.
         for _ in range(2):
             self._await_responses()
-        if not self._probes or self._missed_steps >= _MAX_MISSING_RESPONSES:
+        if not self._probes or not self._is_responding():
             time.sleep(_UNRESPONSIVE_STEP_TIME)
         first, count = self._messages, -1
         while count != self._messages:
@@ -230,9 +311,9 @@ class World:
                 break
 
     def _await_responses(self) -> None:
-        if self._missed_steps >= _MAX_MISSING_RESPONSES:
+        if not self._is_responding():
             return
-        futures = [probe.call_async(GetParameters.Request(names=["use_sim_time"])) for probe in self._probes]
+        futures = [probe.call_async(_probe_request()) for probe in self._probes]
         patience = FairTimeout(_RESPONSE, self._waiting_time)
         while not (all(future.done() for future in futures) or patience.is_over()):
             for future in futures:
@@ -259,6 +340,10 @@ class World:
 
     def _has_parameters(self, node: str) -> bool:
         return f"{node}/get_parameters" in dict(self._node.get_service_names_and_types())
+
+
+def _probe_request() -> GetParameters.Request:
+    return GetParameters.Request(names=[_USE_SIM_TIME])
 
 
 def stamp_of(nanoseconds: int) -> Time:

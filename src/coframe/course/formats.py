@@ -30,14 +30,23 @@ def text(report: dict[str, Any]) -> Iterator[str]:
         for fact in criterion["facts"]:
             lost = fact["earned"] < fact["points"]
             yield f"  {'-' if lost else '+'} {_points_text(fact)}  {fact['name']}"
-            if lost and fact["cause"]:  # The problem above explains the others.
+            if lost and fact["observed"] not in criterion["problem"]:  # The problem above explains the others.
                 yield from _indent(fact["expected"], "        expected: ")
                 yield from _indent(fact["observed"], "        observed: ")
+            if lost and not _is_explained(criterion, fact):
                 yield from _indent(fact["cause"], "        likely cause: ")
                 yield from _indent(fact["read"], "        read: ")
         yield ""
     yield from report["notices"]
     yield _total_line(report)
+
+
+def _is_explained(criterion: dict[str, Any], fact: dict[str, Any]) -> bool:
+    """Return whether the cause of lost points is written above the facts, or above this one."""
+    facts = criterion["facts"]
+    same = next(each for each in facts if each["cause"] == fact["cause"] and each["earned"] < each["points"])
+    withdrawn = fact["observed"] in criterion["problem"]
+    return bool(withdrawn and (not fact["cause"] or same is not fact))
 
 
 def _total_line(report: dict[str, Any]) -> str:

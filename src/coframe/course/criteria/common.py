@@ -11,6 +11,7 @@ import numpy as np
 
 from coframe._files.os_errors import explain
 from coframe.course._program import StudentProgram
+from coframe.course.criteria.causes import BLOCKED, log_cause
 from coframe.course.submitted import MISSING_FILE, check_submitted, is_submitted
 from coframe.errors import CoframeError, CourseError
 from coframe.robots.files import expand_xacro
@@ -19,7 +20,7 @@ from coframe.time import SECOND
 from coframe.transform.transform import Transform
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
     from pathlib import Path
 
     from coframe.course._confinement import Confinement
@@ -33,11 +34,13 @@ __all__ = [
     "difference_text",
     "expanded_xacro",
     "mean_rate",
+    "norm_of",
     "read_edge",
     "read_pose",
     "run_program",
     "stamp_ns",
     "to_seconds",
+    "transforms_on_tf",
 ]
 
 TOLERANCE = 1e-6  # meters, and components of unit quaternions
@@ -62,7 +65,9 @@ class Task(NamedTuple):
 
 
 @contextlib.contextmanager
-def run_program(task: Task, sheet: Sheet, *, wrong_topic: str = "") -> Iterator[StudentProgram | None]:
+def run_program(
+    task: Task, sheet: Sheet, *, outputs: Sequence[str] = (), silence_cause: Callable[[str], str] = log_cause
+) -> Iterator[StudentProgram | None]:
     """Yield the program of a sheet, or None if its file does not exist; stop it after the block.
 
     Problems of the program are then recorded on the sheet. A program that publishes nothing, or publishes on topics
@@ -71,8 +76,9 @@ def run_program(task: Task, sheet: Sheet, *, wrong_topic: str = "") -> Iterator[
     Args:
         task: The context of the criterion: the student's folder and the simulated world.
         sheet: The sheet; its file is the program.
-        wrong_topic: A topic on which a program may publish by mistake. A single message at startup may be lost, so a
-            program with a publisher there is examined even if nothing has arrived.
+        outputs: More topics on which it may publish by mistake. A single message at startup may be lost, so a program
+            with a publisher there is examined even if nothing has arrived.
+        silence_cause: Returns why a program publishes nothing, given its output, or "" if that is not known.
     """
     first = len(sheet.facts)
     file = task.folder / sheet.file
@@ -81,14 +87,20 @@ def run_program(task: Task, sheet: Sheet, *, wrong_topic: str = "") -> Iterator[
         task.world.stop()
         sheet.withdraw(first, reason)
         return
+    world = task.world
     program = StudentProgram(file, task.scratch, task.confinement)
+    silence = cause = ""
     try:
         yield program
-        intruder = _intruder_reason(task.world)
-        silence = "" if task.world.has_received() else _silence_reason(sheet.file, task.world, wrong_topic)
+        intruder = _intruder_reason(world)
+        if not world.has_received():
+            silence = _silence_reason(sheet.file, world, outputs)
+            cause = silence_cause(program.output().decode(errors="replace")) if silence else ""
+        elif world.is_blocked():
+            cause = BLOCKED
     finally:
-        task.world.stop()
-        task.world.stop_publishing()
+        world.stop()
+        world.stop_publishing()
     cheat = program.attempt() or intruder
     problem = cheat or program.crash_reason()
     sheet.add_problem(problem)
@@ -98,15 +110,23 @@ def run_program(task: Task, sheet: Sheet, *, wrong_topic: str = "") -> Iterator[
         sheet.withdraw(0, cheat)
     elif silence and not problem:
         sheet.withdraw(first, silence)
-    elif silence:
-        sheet.set_cause(first, "the program exited before it published anything")
+        sheet.set_cause(first, cause)
+    elif problem:
+        sheet.set_cause(first, _as_cause(problem))
+    elif cause:
+        sheet.set_cause(first, cause)
 
 
-def _silence_reason(file: str, world: World, wrong_topic: str) -> str:
-    """Return a message about a program that publishes nothing, or "" if it has a publisher on a wrong topic."""
-    topics = [topic for topic in world.watched_topics() if world.publishers_of(topic)]
-    if wrong_topic in topics:
+def _as_cause(problem: str) -> str:
+    """Return the problem of a program as the cause of lost points."""
+    return problem[:1].lower() + problem[1:].rstrip(".")
+
+
+def _silence_reason(file: str, world: World, outputs: Sequence[str]) -> str:
+    """Return a message about a program that publishes nothing, or "" if it has a publisher on one of the topics."""
+    if any(world.publishers_of(topic) for topic in outputs):
         return ""
+    topics = [topic for topic in world.watched_topics() if world.publishers_of(topic)]
     if not topics:
         return f"{file} publishes nothing yet. Its first lines describe the task."
     method = "sendTransform()" if topics[0] in {"/tf", "/tf_static"} else "publish()"
@@ -164,6 +184,20 @@ def stamp_ns(message: Any) -> int:
 def to_seconds(nanoseconds: int) -> float:
     """Return nanoseconds in seconds."""
     return nanoseconds / SECOND
+
+
+def transforms_on_tf(received: list[Received], stored: list[Received]) -> list[Received]:
+    """Return the messages of a program on /tf, given those of a volatile and of a transient local subscription.
+
+    A graded program also stores messages of /tf, so that those before its discovery are not lost. The publishers of
+    other programs offer only volatile messages.
+    """
+    return stored or received
+
+
+def norm_of(turned: Any) -> float:
+    """Return the length of a Quaternion message."""
+    return float(np.linalg.norm([turned.x, turned.y, turned.z, turned.w]))
 
 
 def read_edge(message: Any) -> Transform:

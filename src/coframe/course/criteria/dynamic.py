@@ -4,176 +4,230 @@
 from __future__ import annotations
 
 import itertools
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from coframe.course._motion import JOINT_PERIOD
 from coframe.course._sheet import Sheet
 from coframe.course._world import STEP, stamp_of
-from coframe.course.criteria.common import TOLERANCE, Task, mean_rate, run_program, stamp_ns, to_seconds
+from coframe.course.criteria.arm_motion import ANGLE, CHILDREN, Formula, Motion, angle_of
+from coframe.course.criteria.causes import edge_cause, name_mistake, period_cause, quaternion_values
+from coframe.course.criteria.common import (
+    TOLERANCE,
+    Task,
+    mean_rate,
+    run_program,
+    stamp_ns,
+    to_seconds,
+    transforms_on_tf,
+)
 from coframe.course.rubric import RUBRIC
 from coframe.time import SECOND
 from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from coframe.course._program import StudentProgram
     from coframe.course._world import Received, World
 
 __all__ = ["check"]
 
 _EDGES = (("base_link", "link1"), ("link1", "link2"), ("link2", "end_effector"))
-_ANGLE = 1e-3  # radians; far below the effect of a wrong amplitude, frequency or phase
+_FRAMES = ("base_link", "link1", "link2", "end_effector")
+_JOINTS = ("joint1", "joint2")
+_TOPIC = "/joint_states"
 _JOINT_STATE_PERIOD = 2 * STEP
-_STARTUP_TIME = SECOND // 5
+_MAX_AGE = 10 * STEP  # of the joint state that the arm follows
+_PAUSE = 0.13  # seconds by which the timer of the program is late once
+_SLOW_STEP, _SLOW_STEPS = 1.0, 60  # seconds; the clock runs faster if the program has published almost nothing
+_REAL_SECONDS, _REAL_SETS = 2.0, 3  # for the stamps with the clock of the system
+_STATIC_BROADCASTER = (
+    "StaticTransformBroadcaster sends on /tf_static, where each message replaces the past: use TransformBroadcaster"
+)
 _CHAPTER = "handbook chapter 3, static and dynamic transforms"
+_TIME_CHAPTER = "handbook chapter 5, time, interpolation, waiting"
+
+
+class _Published(NamedTuple):
+    """What the program has published.
+
+    Attributes:
+        simulated: The messages without joint states.
+        in_order: Those while the joint states had the order joint1, joint2.
+        reversed: Those while they had the order joint2, joint1.
+        real: Those with the clock of the system.
+        topic: The topic of the messages.
+        subscriptions: The topics of joint states to which the program subscribes.
+    """
+
+    simulated: list[Received]
+    in_order: list[Received]
+    reversed: list[Received]
+    real: list[Received]
+    topic: str
+    subscriptions: list[str]
 
 
 def check(task: Task) -> Sheet:
     """Check ``dynamic_tf_broadcaster.py``."""
     sheet = Sheet.of(RUBRIC["dynamic"])
-    world = task.world
-    with run_program(task, sheet) as program:
-        received = world.watch("/tf", TFMessage)
-        if program is not None:
-            world.start(program)
-            world.run(5.0)
-        simulated = list(received)
-        if program is not None:
-            world.run(1.0, lambda now: _publish_joint_states(world, now))
-        followed = received[len(simulated) :]
-        _check_edges(sheet, simulated)
-        _check_dimensions(sheet, task, simulated)
-        _check_motion_law(sheet, simulated)
-        _check_times(sheet, task, simulated)
-        _check_joint_states(sheet, followed)
+    with run_program(task, sheet, outputs=["/tf_static"]) as program:
+        nothing = _Published([], [], [], [], "/tf", [])
+        published = nothing if program is None else _run(task.world, program)
+        motion = Motion.of(published.simulated, 1.0 / task.assignment.dynamic_rate)
+        _check_edges(sheet, published)
+        _check_dimensions(sheet, task, published.simulated)
+        _check_motion(sheet, published.simulated, motion)
+        _check_times(sheet, task, published)
+        _check_joint_states(sheet, published, motion)
     return sheet
 
 
-def _published_angles(seconds: float) -> tuple[float, float]:
+def _run(world: World, program: StudentProgram) -> _Published:
+    """Run the program, first without joint states, then with both orders of joints, then with the system clock."""
+    volatile, stored = world.watch("/tf", TFMessage), world.watch("/tf", TFMessage, latched=True)
+    static = world.watch("/tf_static", TFMessage, latched=True)
+
+    def received() -> list[Received]:
+        return transforms_on_tf(volatile, stored) or static
+
+    def during(seconds: float, joints: tuple[str, ...]) -> list[Received]:
+        first = len(received())
+        world.run(seconds, lambda now: _publish_joint_states(world, now, joints))
+        return received()[first:]
+
+    world.start(program)
+    world.run(2.5)
+    world.jump(_PAUSE)
+    world.run(2.5)
+    for _ in range(_SLOW_STEPS):
+        if len(received()) > 2:
+            break
+        world.jump(_SLOW_STEP)
+    simulated = list(received())
+    in_order, swapped = during(0.6, _JOINTS), during(0.6, _JOINTS[::-1])
+    subscriptions = world.subscribed_topics("sensor_msgs/msg/JointState")
+    first = len(received())
+    world.use_system_time(_REAL_SECONDS, lambda: len(received()) >= first + _REAL_SETS * len(_EDGES))
+    topic = "/tf" if volatile or stored else "/tf_static"
+    return _Published(simulated, in_order, swapped, received()[first:], topic, subscriptions)
+
+
+def _given_angles(seconds: float) -> tuple[float, float]:
     """Return the joint states published by the check: the arm swings slowly, far from the simulated motion."""
     return 1.2 + 0.1 * float(np.sin(seconds)), -0.9 + 0.1 * float(np.cos(seconds))
 
 
-def _publish_joint_states(world: World, now: int) -> None:
+def _publish_joint_states(world: World, now: int, joints: tuple[str, ...]) -> None:
     if now % _JOINT_STATE_PERIOD == 0:
-        state = JointState(name=["joint1", "joint2"], position=list(_published_angles(to_seconds(now))))
+        angles = dict(zip(_JOINTS, _given_angles(to_seconds(now)), strict=True))
+        state = JointState(name=list(joints), position=[angles[joint] for joint in joints])
         state.header.stamp = stamp_of(now)
-        world.publish("/joint_states", state)
+        world.publish(_TOPIC, state)
 
 
 def _samples(received: list[Received], child: str) -> list[Any]:
     return [each for one in received for each in one.message.transforms if each.child_frame_id == child]
 
 
-def _angle(message: Any) -> float:
-    return float(2.0 * np.arctan2(message.transform.rotation.z, message.transform.rotation.w))
-
-
-def _check_edges(sheet: Sheet, received: list[Received]) -> None:
+def _check_edges(sheet: Sheet, published: _Published) -> None:
+    sent = [each for one in published.simulated for each in one.message.transforms]
+    edges = [(each.header.frame_id, each.child_frame_id) for each in sent]
+    others = [f"{parent} -> {child}" for parent, child in dict.fromkeys(edges) if child not in _FRAMES]
     for parent, child in _EDGES:
-        parents = {each.header.frame_id for each in _samples(received, child)}
+        parents = {each.header.frame_id for each in sent if each.child_frame_id == child}
+        is_dynamic = published.topic == "/tf"
+        where = "" if is_dynamic else f" on {published.topic}"
+        missing = f"no transform to {child}" + (f"; received: {', '.join(others[:3])}" if others else "")
         sheet.check(
             1,
             f"{child} has the parent {parent}",
-            parents == {parent},
+            parents == {parent} and is_dynamic,
             expected=f"transforms from {parent} to {child} on /tf",
-            observed=f"parents: {', '.join(sorted(parents))}" if parents else f"no transform to {child}",
-            cause="header.frame_id is the parent, child_frame_id the child",
+            observed=f"parents{where}: {', '.join(sorted(parents))}" if parents else missing,
+            cause=edge_cause(parent, child, edges, _FRAMES) if parents != {parent} else _STATIC_BROADCASTER,
             read=_CHAPTER,
         )
 
 
 def _check_dimensions(sheet: Sheet, task: Task, received: list[Received]) -> None:
     first, second = task.assignment.link_lengths
-    for points, child, name, correct in (
+    rows = (
         (1, "link1", "the height of the first joint", (0.0, 0.0, task.assignment.base_height)),
         (2, "link2", "the length of the first link", (first, 0.0, 0.0)),
         (2, "end_effector", "the length of the second link", (second, 0.0, 0.0)),
-    ):
-        moves = [each.transform.translation for each in _samples(received, child)]
-        offsets = [max(abs(m.x - correct[0]), abs(m.y - correct[1]), abs(m.z - correct[2])) for m in moves]
-        seen = f"[{moves[-1].x:.6g}, {moves[-1].y:.6g}, {moves[-1].z:.6g}]" if moves else "no transform"
+    )
+    seen = {child: _offsets(received, child) for _, child, _, _ in rows}
+    for points, child, name, correct in rows:
+        offsets = seen[child]
         sheet.check(
             points,
             f"{name} is right",
-            bool(offsets) and max(offsets) <= TOLERANCE,
+            bool(len(offsets)) and bool(np.abs(offsets - correct).max() <= TOLERANCE),
             expected=f"translation {list(correct)} m of {child}",
-            observed=f"translation {seen}",
-            cause="swapped link lengths, or values that differ from the assignment (lab.json, README.md)",
+            observed=f"translation {[round(value, 6) for value in offsets[-1].tolist()]} m"
+            if len(offsets)
+            else f"no transform to {child}",
+            cause=_dimension_cause(offsets, correct, first, second),
             read="handbook chapter 1, why frames",
         )
 
 
-def _check_motion_law(sheet: Sheet, received: list[Received]) -> None:
-    """Check the joint angles at their stamps. The motion may start at any time."""
-    good = [_follows_law(received, index) for index in (0, 1)]
-    together = _common_start(received) if all(good) else False
-    for index, child in enumerate(("link1", "link2")):
-        samples = _samples(received, child)
-        tilted = any(abs(each.transform.rotation.x) + abs(each.transform.rotation.y) > TOLERANCE for each in samples)
-        law = ("0.5 sin(2 pi 0.2 t)", "0.3 sin(2 pi 0.3 t + pi / 4)")[index]
-        fits = good[index] and (index == 0 or together or not good[0])
+def _offsets(received: list[Received], child: str) -> np.ndarray[Any, np.dtype[np.float64]]:
+    moved = [each.transform.translation for each in _samples(received, child)]
+    return np.array([[each.x, each.y, each.z] for each in moved]).reshape(-1, 3)
+
+
+def _dimension_cause(offsets: Any, correct: tuple[float, ...], first: float, second: float) -> str:
+    """Return the mistake in the constant translation of a joint."""
+    if not len(offsets):
+        return ""
+    last = offsets[-1]
+    swapped = {first: second, second: first}.get(correct[0])
+    for values, cause in (
+        ((swapped, 0.0, 0.0), "the lengths of the two links are exchanged"),
+        ([1000.0 * value for value in correct], "the length is in millimeters; ROS uses meters"),
+        ([100.0 * value for value in correct], "the length is in centimeters; ROS uses meters"),
+        ([-value for value in correct], "the sign of the translation is changed"),
+        ((0.0, 0.0, 0.0), "the translation is not set"),
+        ((0.0, max(correct), 0.0), "the length is in y: the link points along x"),
+        ((0.0, 0.0, correct[0]), "the length is in z: the link points along x"),
+        ((correct[2], 0.0, 0.0), "the height is in x instead of z"),
+    ):
+        if None not in values and np.abs(last - np.array(values)).max() <= TOLERANCE:
+            return cause
+    return ""
+
+
+def _check_motion(sheet: Sheet, received: list[Received], motion: Motion) -> None:
+    """Check the joint angles at their stamps."""
+    for joint, child in enumerate(CHILDREN):
+        law = ("0.5 sin(2 pi 0.2 t)", "0.3 sin(2 pi 0.3 t + pi / 4)")[joint]
         sheet.check(
             2.5,
-            f"joint {index + 1} follows the specified motion",
-            bool(samples) and not tilted and fits,
+            f"joint {joint + 1} follows the specified motion",
+            motion.is_right[joint],
             expected=f"a rotation about z by {law}",
-            observed=_law_observation(samples, tilted),
-            cause="sin(q) and cos(q) instead of sin(q / 2) and cos(q / 2), degrees, or another amplitude or frequency",
+            observed=_motion_observation(_samples(received, child), motion.causes[joint]),
+            cause=motion.causes[joint],
             read="handbook chapter 2, rotations and quaternions",
         )
 
 
-def _law_observation(samples: list[Any], tilted: bool) -> str:
-    if not samples:
-        return "no transform"
-    if tilted:
+def _motion_observation(samples: list[Any], cause: str) -> str:
+    if len(samples) < 3:
+        return f"{len(samples)} transforms" if samples else "no transform"
+    if "same time" in cause:
+        return "each joint follows the motion, but not from a common start"
+    tilts = [max(abs(each.transform.rotation.x), abs(each.transform.rotation.y)) for each in samples]
+    if max(tilts) > TOLERANCE:
         return "the rotation is not about z"
-    angles = [_angle(each) for each in samples]
-    return f"angles from {min(angles):.3f} to {max(angles):.3f} rad"
+    angles = [angle_of(each) for each in samples]
+    return f"another motion, with angles from {min(angles):.3f} to {max(angles):.3f} rad"
 
 
-def _angle_at(index: int, seconds: NDArray[np.float64]) -> NDArray[np.float64]:
-    angles = (
-        0.5 * np.sin(2 * np.pi * 0.2 * seconds) if index == 0 else 0.3 * np.sin(2 * np.pi * 0.3 * seconds + np.pi / 4)
-    )
-    return np.asarray(angles)
-
-
-def _residuals(received: list[Received], index: int, starts: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the maximum deviation from the specified motion, in radians, for each possible start time."""
-    samples = _remove_startup(_samples(received, ("link1", "link2")[index]))
-    times = np.array([to_seconds(stamp_ns(each) % round(JOINT_PERIOD * SECOND)) for each in samples])
-    angles = np.array([_angle(each) for each in samples])
-    return np.asarray(np.abs(_angle_at(index, times[None, :] - starts[:, None]) - angles[None, :]).max(axis=1))
-
-
-def _remove_startup(samples: list[Any]) -> list[Any]:
-    """Return the samples without the initial ones, when the simulated clock jumps to its start time."""
-    return [each for each in samples if stamp_ns(each) - stamp_ns(samples[0]) > _STARTUP_TIME]
-
-
-def _starts() -> NDArray[np.float64]:
-    return np.arange(0.0, JOINT_PERIOD, 0.002)
-
-
-def _follows_law(received: list[Received], index: int) -> bool:
-    if len(_remove_startup(_samples(received, ("link1", "link2")[index]))) < 3:
-        return False
-    return bool(_residuals(received, index, _starts()).min() <= _ANGLE)
-
-
-def _common_start(received: list[Received]) -> bool:
-    """Return whether both joints began at the same time."""
-    both = np.maximum(_residuals(received, 0, _starts()), _residuals(received, 1, _starts()))
-    return bool(both.min() <= _ANGLE)
-
-
-def _check_times(sheet: Sheet, task: Task, received: list[Received]) -> None:
-    wanted = task.assignment.dynamic_rate
+def _check_times(sheet: Sheet, task: Task, published: _Published) -> None:
+    wanted, received = task.assignment.dynamic_rate, published.simulated
     arm = [each for each in received if any(edge.child_frame_id == "link1" for edge in each.message.transforms)]
     rate = mean_rate(arm)
     sheet.check(
@@ -181,50 +235,90 @@ def _check_times(sheet: Sheet, task: Task, received: list[Received]) -> None:
         f"the transforms are sent at {wanted:g} Hz",
         abs(rate - wanted) <= 0.1 * wanted,
         expected=f"{wanted:g} Hz, 10 % more or less",
-        observed=f"{rate:.1f} Hz",
-        cause="a different timer period",
+        observed=f"{rate:.3g} Hz",
+        cause=period_cause(rate, wanted),
         read=_CHAPTER,
     )
-    stamps = [stamp_ns(each) for each in _samples(received, "link1")]
+    _check_stamps(sheet, arm)
+    _check_common_stamp(sheet, published)
+
+
+def _check_stamps(sheet: Sheet, arm: list[Received]) -> None:
+    stamps = [stamp_ns(each) for each in _samples(arm, "link1")]
     ahead = [stamp_ns(edge) - each.time for each in arm for edge in each.message.transforms]
     increasing = all(later > earlier for earlier, later in itertools.pairwise(stamps))
-    late = max((abs(each) for each in ahead), default=SECOND)
+    off = max(ahead, key=abs, default=0)
     sheet.check(
         2,
         "the stamps are the current time and increase",
-        len(stamps) > 1 and increasing and late <= 5 * STEP,
+        bool(stamps) and increasing and abs(off) <= 5 * STEP,
         expected="stamps from the node's clock, each later than the previous one",
-        observed="repeated or decreasing stamps"
-        if not increasing
-        else f"stamps up to {to_seconds(late):.3g} s off the clock"
-        if stamps
-        else "no transform",
-        cause="the stamp is set once, or is the time of the system: use self.get_clock().now() for each message",
-        read="handbook chapter 5, time, interpolation, waiting",
+        observed="no transform"
+        if not stamps
+        else f"stamps that are up to {to_seconds(abs(off)):.3g} s {'ahead of' if off > 0 else 'behind'} the clock"
+        if abs(off) > 5 * STEP
+        else "repeated or decreasing stamps",
+        cause=_stamp_cause(stamps, off),
+        read=_TIME_CHAPTER,
     )
-    children = [child for _, child in _EDGES]
-    sets = [{stamp_ns(each) for each in _samples(received, child)} for child in children]
+
+
+def _stamp_cause(stamps: list[int], off: int) -> str:
+    if not stamps:
+        return ""
+    if not any(stamps):
+        return "header.stamp is not set: use self.get_clock().now().to_msg()"
+    if len(set(stamps)) == 1 and len(stamps) > 1:
+        return "the stamp is read once, and used for all messages: read the clock in each call of the timer"
+    if off > 1_000_000 * SECOND:
+        return "the stamp is the time of the system: use the clock of the node, self.get_clock().now()"
+    return ""
+
+
+def _check_common_stamp(sheet: Sheet, published: _Published) -> None:
+    """Check the stamps with the clock of the system, on which two calls of now() never return the same time."""
+    sets = [{stamp_ns(each) for each in _samples(published.simulated, child)} for _, child in _EDGES]
+    real = [{stamp_ns(each) for each in _samples(published.real, child)} for _, child in _EDGES]
+    in_simulation = bool(sets[0]) and sets[0] == sets[1] == sets[2]
+    common = set.intersection(*real) if all(real) else set()
+    differ = bool(all(real)) and not common
     sheet.check(
         1,
         "all three transforms have the same stamp",
-        bool(sets[0]) and sets[0] == sets[1] == sets[2],
+        in_simulation and not differ,
         expected="one stamp for the whole arm",
         observed="different stamps" if all(sets) else "no transform",
-        cause="now() is called once per transform",
-        read="handbook chapter 5, time, interpolation, waiting",
+        cause="the clock is read for each transform: call now() once, and use its result for all three"
+        if differ
+        else "",
+        read=_TIME_CHAPTER,
     )
 
 
-def _check_joint_states(sheet: Sheet, received: list[Received]) -> None:
-    half = received[len(received) // 2 :]
-    followed = [_is_followed(each) for each in half if _angles(each)]
+def _check_joint_states(sheet: Sheet, published: _Published, motion: Motion) -> None:
+    formula = motion.formula
+    first = _second_half(published.in_order)
+    followed = [_is_followed(each, formula) for each in first]
     sheet.check(
-        3,
+        2,
         "the arm follows /joint_states",
         any(followed),
         expected="the angles of the last joint state",
         observed="other angles" if followed else "no transform while joint states are published",
-        cause="no subscription to /joint_states, or the positions are not used",
+        cause=_following_cause(published, formula, any(followed)),
+        read=_CHAPTER,
+    )
+    swapped = _second_half(published.reversed)
+    by_name = [_is_followed(each, formula) for each in swapped]
+    sheet.check(
+        1,
+        "the arm finds the joints by name",
+        any(by_name),
+        expected="the same motion when /joint_states has the order joint2, joint1",
+        observed="other angles" if by_name else "no transform while joint states are published",
+        cause="the angles are taken by position: use dict(zip(message.name, message.position))"
+        if any(followed) and any(_is_followed(each, formula, exchanged=True) for each in swapped)
+        else _following_cause(published, formula, any(by_name)),
         read=_CHAPTER,
     )
     sheet.check(
@@ -235,22 +329,54 @@ def _check_joint_states(sheet: Sheet, received: list[Received]) -> None:
         observed=f"{followed.count(False)} of {len(followed)} messages have other angles"
         if followed
         else "no transform",
-        cause="the simulation continues while joint states arrive: two sources of joint angles make the arm flicker",
+        cause="the simulation continues while joint states arrive: two sources of joint angles make the arm flicker"
+        if any(followed)
+        else _following_cause(published, formula, any(followed)),
         read="handbook chapter 10, finding errors",
     )
 
 
-def _angles(received: Received) -> dict[str, float]:
+def _second_half(received: list[Received]) -> list[Received]:
+    """Return the later messages with the angles of the arm, after the node has had time to react."""
+    arm = [each for each in received if _rotations(each)]
+    return arm[len(arm) // 2 :]
+
+
+def _following_cause(published: _Published, formula: Formula, is_followed: bool) -> str:
+    """Return why the arm does not follow the joint states."""
+    topics = published.subscriptions
+    if is_followed or not published.simulated:
+        return ""
+    if not topics:
+        return "there is no subscription to /joint_states"
+    if _TOPIC not in topics:
+        return name_mistake(topics[0], _TOPIC) or f"the subscription is to {topics[0]}, not to {_TOPIC}"
+    if any(_is_followed(each, formula, exchanged=True) for each in _second_half(published.in_order)):
+        return "the angles of the two joints are exchanged"
+    return ""
+
+
+def _rotations(received: Received) -> dict[str, np.ndarray[Any, np.dtype[np.float64]]]:
     return {
-        each.child_frame_id: _angle(each)
+        each.child_frame_id: quaternion_values(each.transform.rotation)
         for each in received.message.transforms
-        if each.child_frame_id in {"link1", "link2"}
+        if each.child_frame_id in CHILDREN
     }
 
 
-def _is_followed(received: Received) -> bool:
-    """Return whether the angles match a joint state of the last 100 ms."""
-    times = [to_seconds(received.time - age * STEP) for age in range(11)]
-    found = _angles(received)
-    given = [dict(zip(("link1", "link2"), _published_angles(each), strict=True)) for each in times]
-    return any(all(abs(found[child] - each[child]) <= _ANGLE for child in found) for each in given)
+def _is_followed(received: Received, formula: Formula, *, exchanged: bool = False) -> bool:
+    """Return whether the angles match a joint state of the last 100 ms.
+
+    Args:
+        received: A message of the arm.
+        formula: The formula of its quaternions. Its mistake has lost points for the motion already.
+        exchanged: Whether each joint has the angle of the other one.
+    """
+    found = _rotations(received)
+    for age in range(0, _MAX_AGE + 1, STEP):
+        angles = np.array(_given_angles(to_seconds(received.time - age)))
+        expected = dict(zip(CHILDREN, formula.quaternions(angles[::-1] if exchanged else angles), strict=True))
+        cosines = [abs(float(found[child] @ expected[child])) for child in found]
+        if all(2.0 * np.sqrt(max(2.0 * (1.0 - cosine), 0.0)) <= ANGLE for cosine in cosines):
+            return True
+    return False

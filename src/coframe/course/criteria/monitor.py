@@ -54,7 +54,6 @@ def check(task: Task) -> Sheet:
             is_alive and not healthy and bool(problems),
             expected=f"no message on {_TOPIC} until there is a problem",
             observed=f"{healthy} messages" if healthy else "no message, even when there is a problem",
-            cause=f"a limit that is too strict: the arm is published at {task.assignment.dynamic_rate:g} Hz",
             read=_READ,
         )
         sheet.check(
@@ -63,7 +62,6 @@ def check(task: Task) -> Sheet:
             _names(stale, "end_effector") or _names(stale, "link1"),
             expected="a message with link1, link2 or end_effector within 3 s",
             observed=_quote_messages(stale),
-            cause="compare the newest stamp of each child with the clock in a timer",
             read=_READ,
         )
         sheet.check(
@@ -72,7 +70,6 @@ def check(task: Task) -> Sheet:
             _names(reparented, "base_link"),
             expected="a message with base_link within 3 s",
             observed=_quote_messages(reparented),
-            cause="remember the parent of each child, and report a different one",
             read=_READ,
         )
     return sheet

@@ -4,16 +4,17 @@
 from __future__ import annotations
 
 import math
-import time
 from array import array
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from coframe.course._motion import SimulatedRobot
 from coframe.course._sheet import Sheet
 from coframe.course._world import STEP, stamp_of
+from coframe.course.criteria.causes import log_cause, name_mistake
 from coframe.course.criteria.common import Task, run_program, stamp_ns
+from coframe.course.criteria.scan_mistakes import SentScan, cloud_mistake, filter_mistake
 from coframe.course.rubric import RUBRIC
 from coframe.errors import CoframeError
 from coframe.sensors.layout import field_of
@@ -23,64 +24,120 @@ from sensor_msgs.msg import LaserScan, PointCloud2
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from coframe.course._world import Received, World
+    from coframe.course._world import Received
 
 __all__ = ["check"]
 
-_TOPIC = "/scan_base_frame"
+_TOPIC, _TYPE = "/scan_base_frame", "sensor_msgs/msg/PointCloud2"
+_NODE = "sensor_transform"
 _BEAMS = 120
 _RANGE_MIN, _RANGE_MAX = 0.1, 10.0
 _SCAN_PERIOD = 10 * STEP
 _SCANS = 15  # in each of the two frames
 _TOLERANCE = 1e-3  # meters
+_MEASURED = STEP  # age of a scan and of a transform when they are published, as on a robot
 # Seconds of real time from a scan to the transform of its stamp. On a robot, this is usually 10 to 50 ms.
 _TRANSFORM_DELAY = 0.03
+_MIN_RESPONSES = 0.25  # share of the waits in which a node with several threads responds; one with a single one: none
 _GRIPPER = "gripper_link"
-_GRIPPER_OFFSET = (0.1, 0.0, 0.0)
+_GRIPPER_MOUNT = Transform.from_rpy(
+    (0.1, 0.02, 0.03), roll=0.4, pitch=0.25, yaw=-0.6, source=_GRIPPER, target="end_effector"
+)
+# In the check, the lidar is also turned on the base: without it, points @ R would be as right as points @ R.T.
+_LIDAR_TURN = Transform.from_rpy(roll=0.1, pitch=-0.15, yaw=0.5)
 _NO_WAIT_CAUSE = "the lookup does not wait: the transform of a scan arrives after it. Use a timeout or a MessageFilter"
+_ONE_THREAD_CAUSE = (
+    "the node has a single thread: on ROS 2, a lookup that waits in a callback stops the TransformListener. "
+    "Use rclpy.spin(node, executor=MultiThreadedExecutor()) or a MessageFilter"
+)
 _READ = "handbook chapter 6, sensors in the base frame"
 
 
-class _Scan(NamedTuple):
-    """A scan and the expected cloud in base_link."""
+class _Robot(SimulatedRobot):
+    """The robot of the assignment with a turned lidar, and one on the gripper."""
 
-    message: LaserScan
-    points: NDArray[np.float64]
+    def mounts(self) -> list[Transform]:
+        """Return the static transforms of the sensors."""
+        return [*(self._turned(mount) for mount in super().mounts()), _GRIPPER_MOUNT]
+
+    def _turned(self, mount: Transform) -> Transform:
+        if mount.source != self.assignment.lidar.frame:
+            return mount
+        return Transform(mount.translation, _LIDAR_TURN.quaternion, target=mount.target, source=mount.source)
+
+    def lidars(self, stamp: int) -> dict[str, Transform]:
+        """Return the pose of each lidar relative to base_link at a stamp in nanoseconds."""
+        mounts = {mount.source: mount for mount in self.mounts()}
+        frame = self.assignment.lidar.frame
+        return {frame: mounts[frame], _GRIPPER: self.end_effector(stamp) @ _GRIPPER_MOUNT}
+
+
+class _Scans:
+    """The published scans by their stamp, and how the program responded while it waited for their transforms."""
+
+    def __init__(self) -> None:
+        self.sent: dict[int, SentScan] = {}
+        self.responses: list[bool] = []
+
+    def find(self, received: Received) -> SentScan | None:
+        """Return the scan of a cloud: the one with its stamp, or the last one before its arrival."""
+        stamp = stamp_ns(received.message)
+        if stamp in self.sent:
+            return self.sent[stamp]
+        before = [moment for moment in self.sent if moment <= received.time]
+        return self.sent[max(before)] if before else None
 
 
 def check(task: Task) -> Sheet:
     """Check ``sensor_transform.py``."""
     sheet = Sheet.of(RUBRIC["sensor"])
     world = task.world
-    robot = SimulatedRobot(task.assignment)
-    scans: dict[int, _Scan] = {}
+    robot = _Robot(task.assignment)
+    scans = _Scans()
+
+    def publish_arm(now: int) -> None:
+        world.publish_transforms(robot.arm_at(now - _MEASURED), now - _MEASURED)
 
     def publish(now: int) -> None:
+        # The clock is ahead of the scan, and the scan of its transform: neither now() nor the latest transform fits.
         if now % _SCAN_PERIOD == 0:
-            frame = task.assignment.lidar.frame if len(scans) < _SCANS else _GRIPPER
-            scans[now] = _scan(robot, now, frame)
-            world.publish("/scan", scans[now].message)
-            time.sleep(_TRANSFORM_DELAY)
-        world.publish_transforms(robot.arm_at(now), now)
+            frame = task.assignment.lidar.frame if len(scans.sent) < _SCANS else _GRIPPER
+            scan = _scan(robot, now - _MEASURED, frame)
+            scans.sent[now - _MEASURED] = scan
+            world.publish("/scan", scan.message)
+            scans.responses.append(world.responds(_TRANSFORM_DELAY))
+        publish_arm(now)
 
-    with run_program(task, sheet) as program:
-        clouds = world.watch(_TOPIC, PointCloud2)
+    def silence_cause(output: str) -> str:
+        if not world.has_subscription("/scan"):
+            topics = world.subscribed_topics("sensor_msgs/msg/LaserScan")
+            return (
+                f"the subscription is to {topics[0]}, not to /scan" if topics else "there is no subscription to /scan"
+            )
+        if not world.has_subscription("/tf"):
+            return "there is no TransformListener, which receives the transforms for the buffer"
+        return log_cause(output)
+
+    with run_program(task, sheet, silence_cause=silence_cause) as program:
+        topic, clouds, names = _TOPIC, [], []
         if program is not None:
             world.start(program)
-            mounts = [*robot.mounts(), Transform(_GRIPPER_OFFSET, target="end_effector", source=_GRIPPER)]
-            world.publish_transforms(mounts, world.now, static=True)
-            world.run(0.5, lambda now: world.publish_transforms(robot.arm_at(now), now))
+            topic = world.output_topic(_TOPIC, _TYPE)
+            clouds = world.watch(topic, PointCloud2)
+            world.publish_transforms(robot.mounts(), world.now, static=True)
+            world.run(0.5, publish_arm)
             world.run(2 * _SCANS * _SCAN_PERIOD / 1e9, publish)
-            world.run(0.5, lambda now: world.publish_transforms(robot.arm_at(now), now))
-        _check_messages(sheet, world, scans, clouds)
+            world.run(0.5, publish_arm)
+            names = sorted({info.node_name for info in world.publishers_of(topic)})
+        _check_messages(sheet, scans, clouds, topic, names)
         _check_points(sheet, scans, clouds)
     return sheet
 
 
-def _scan(robot: SimulatedRobot, now: int, frame: str) -> _Scan:
-    """Return a scan with all kinds of invalid beams, and its valid beams in base_link."""
+def _scan(robot: _Robot, stamp: int, frame: str) -> SentScan:
+    """Return a scan with all kinds of invalid beams."""
     angles = -math.pi + 2 * math.pi / _BEAMS * np.arange(_BEAMS)
-    ranges = (3.0 + np.cos(3 * angles + now / 1e9)).astype(np.float32)
+    ranges = (3.0 + np.cos(3 * angles + stamp / 1e9)).astype(np.float32)
     ranges[5::17], ranges[7::23], ranges[11::29], ranges[13::31] = np.inf, np.nan, 0.02, 12.0
     message = LaserScan(
         angle_min=-math.pi,
@@ -92,29 +149,23 @@ def _scan(robot: SimulatedRobot, now: int, frame: str) -> _Scan:
         ranges=array("f", ranges.tobytes()),
     )
     message.header.frame_id = frame
-    message.header.stamp = stamp_of(now)
-    valid = np.isfinite(ranges) & (ranges >= _RANGE_MIN) & (ranges <= _RANGE_MAX)
-    flat = ranges[valid, None] * np.column_stack([np.cos(angles[valid]), np.sin(angles[valid]), np.zeros(valid.sum())])
-    if frame == _GRIPPER:
-        pose = robot.end_effector(now) @ Transform(_GRIPPER_OFFSET, target="end_effector", source=_GRIPPER)
-    else:
-        mount = robot.assignment.lidar
-        pose = Transform(mount.translation, mount.quaternion)
-    return _Scan(message, np.asarray(pose @ flat))
+    message.header.stamp = stamp_of(stamp)
+    lidars = robot.lidars(stamp)
+    return SentScan(message, lidars[frame], robot.lidars(stamp - STEP)[frame], lidars)
 
 
-def _check_messages(sheet: Sheet, world: World, scans: dict[int, _Scan], clouds: list[Received]) -> None:
-    names = sorted({info.node_name for info in world.publishers_of(_TOPIC)})
-    is_node = names == ["sensor_transform"]
+def _check_messages(sheet: Sheet, scans: _Scans, clouds: list[Received], topic: str, names: list[str]) -> None:
+    right = topic == _TOPIC, names == [_NODE]
+    causes = [] if right[0] else [name_mistake(topic, _TOPIC) or f"the topic is {topic} instead of {_TOPIC}"]
+    if names and not right[1]:
+        causes.append(f"the node is named {', '.join(names)} instead of {_NODE}")
     sheet.check(
-        3,
-        f"the node sensor_transform publishes clouds on {_TOPIC}",
-        1.0 if clouds and is_node else 0.5 if clouds else 0.0,
-        expected=f"PointCloud2 messages on {_TOPIC} from the node sensor_transform",
-        observed=f"{len(clouds)} messages from {', '.join(names) or 'no node'}",
-        cause="the publisher is created, but publish() is never called"
-        if names and not clouds
-        else "another topic or node name",
+        2,
+        f"the node {_NODE} publishes clouds on {_TOPIC}",
+        1.0 if clouds and all(right) else 0.5 if clouds and any(right) else 0.0,
+        expected=f"PointCloud2 messages on {_TOPIC} from the node {_NODE}",
+        observed=f"{len(clouds)} messages on {topic} from {', '.join(names) or 'no node'}",
+        cause="; ".join(causes),
         read=_READ,
     )
     frames = sorted({each.message.header.frame_id for each in clouds})
@@ -124,61 +175,81 @@ def _check_messages(sheet: Sheet, world: World, scans: dict[int, _Scan], clouds:
         frames == ["base_link"],
         expected="header.frame_id is base_link",
         observed=f"header.frame_id is {', '.join(map(repr, frames))}" if frames else "no clouds",
-        cause="the whole header of the scan is copied",
+        cause=_frame_cause(frames, scans),
         read=_READ,
     )
     stamps = [stamp_ns(each.message) for each in clouds]
-    kept = sum(stamp in scans for stamp in stamps)
+    kept = sum(stamp in scans.sent for stamp in stamps)
+    later = [each.time >= stamp for each, stamp in zip(clouds, stamps, strict=True) if stamp not in scans.sent]
     sheet.check(
         3,
         "the clouds keep the stamps of their scans",
         kept / len(stamps) if stamps else 0.0,
         expected="header.stamp is the stamp of the scan",
         observed=f"{len(stamps) - kept} of {len(stamps)} clouds have a different stamp" if stamps else "no clouds",
-        cause="the stamp is now(): the points were measured earlier",
+        cause=""
+        if not later
+        else "header.stamp is not set: use scan.header.stamp"
+        if not any(stamps)
+        else "the stamp is now(): the points were measured earlier. Use scan.header.stamp",
         read=_READ,
     )
-    answered = min(len(set(stamps)), len(scans))
+    answered = min(len(clouds), len(scans.sent))
     sheet.check(
         2,
         "at least 95 % of the scans become clouds",
-        bool(scans) and answered >= 0.95 * len(scans),
+        bool(scans.sent) and answered >= 0.95 * len(scans.sent),
         expected="a cloud for each scan; 5 % may be missing",
-        observed=f"{answered} of {len(scans)} scans",
-        cause=_NO_WAIT_CAUSE,
+        observed=f"{answered} of {len(scans.sent)} scans",
+        cause=_lost_cause(scans, clouds),
+        read="handbook chapter 5, time, interpolation, waiting",
+    )
+    share = sum(scans.responses) / len(scans.responses) if scans.responses else 0.0
+    sheet.check(
+        1,
+        "the node receives messages while a scan waits for its transform",
+        share >= _MIN_RESPONSES,
+        expected="a node that is not blocked by its lookup",
+        observed="the node does not respond while it waits",
+        cause=_ONE_THREAD_CAUSE if clouds else "",
         read="handbook chapter 5, time, interpolation, waiting",
     )
 
 
-def _check_points(sheet: Sheet, scans: dict[int, _Scan], clouds: list[Received]) -> None:
-    compared = [(scan, _points(each)) for each in clouds if (scan := _find_scan(scans, each)) is not None]
+def _frame_cause(frames: list[str], scans: _Scans) -> str:
+    if not frames or frames == ["base_link"]:
+        return ""
+    if set(frames) <= {scan.message.header.frame_id for scan in scans.sent.values()}:
+        return "the header of the scan is copied: frame_id must be the target of the lookup"
+    if frames == [""]:
+        return "header.frame_id is not set"
+    return name_mistake(frames[0], "base_link")
+
+
+def _lost_cause(scans: _Scans, clouds: list[Received]) -> str:
+    """Return why scans are lost: those on the base need no transform that arrives later."""
+    on_base = [scan for each in clouds if (scan := scans.find(each)) and scan.message.header.frame_id != _GRIPPER]
+    return _NO_WAIT_CAUSE if on_base and len(on_base) == len(clouds) else ""
+
+
+def _check_points(sheet: Sheet, scans: _Scans, clouds: list[Received]) -> None:
+    compared = [(scan, _points(each)) for each in clouds if (scan := scans.find(each)) is not None]
     counts = [len(points) == len(scan.points) for scan, points in compared]
-    wrong = next((f"{len(p)} points instead of {len(s.points)}" for s, p in compared if len(p) != len(s.points)), "")
+    wrong = next(((s, p) for s, p in compared if len(p) != len(s.points)), None)
     sheet.check(
         3,
         "beams without an echo are dropped",
         sum(counts) / len(counts) if counts else 0.0,
         expected="one point for each range that is finite and from range_min to range_max",
-        observed=wrong or "no clouds",
-        cause="inf and NaN are not filtered: np.isfinite(ranges)",
+        observed=f"{len(wrong[1])} points instead of {len(wrong[0].points)}" if wrong else "no clouds",
+        cause=filter_mistake(wrong[0].message, len(wrong[1])) if wrong else "",
         read=_READ,
     )
-    on_base = [each for each in compared if each[0].message.header.frame_id != _GRIPPER]
-    on_arm = [each for each in compared if each[0].message.header.frame_id == _GRIPPER]
-    for points, name, pairs, cause in (
-        (
-            4,
-            "each beam is correct to 1 mm",
-            on_base,
-            "the mount of the lidar is ignored, or the angles do not begin at angle_min",
-        ),
-        (
-            3,
-            "each beam is correct to 1 mm on the moving gripper",
-            on_arm,
-            "the lookup uses the latest transform (Time()) instead of the stamp of the scan, or a fixed frame name",
-        ),
+    for points, name, frames_on_arm in (
+        (4, "each beam is correct to 1 mm", False),
+        (3, "each beam is correct to 1 mm on the moving gripper", True),
     ):
+        pairs = [each for each in compared if (each[0].message.header.frame_id == _GRIPPER) is frames_on_arm]
         distances = [_distance(scan, found) for scan, found in pairs]
         good = [distance <= _TOLERANCE for distance in distances]
         sheet.check(
@@ -189,18 +260,11 @@ def _check_points(sheet: Sheet, scans: dict[int, _Scan], clouds: list[Received])
             observed=f"{good.count(False)} of {len(good)} clouds are up to {max(distances) * 1000:.3g} mm wrong"
             if good
             else "no clouds",
-            cause=cause,
+            cause=cloud_mistake([pair for pair, is_good in zip(pairs, good, strict=True) if not is_good])
+            if good
+            else _lost_cause(scans, clouds),
             read=_READ,
         )
-
-
-def _find_scan(scans: dict[int, _Scan], received: Received) -> _Scan | None:
-    """Return the scan of a cloud: the one with its stamp, or the last one before its arrival."""
-    stamp = stamp_ns(received.message)
-    if stamp in scans:
-        return scans[stamp]
-    before = [moment for moment in scans if moment <= received.time]
-    return scans[max(before)] if before else None
 
 
 def _points(received: Received) -> NDArray[np.float64]:
@@ -211,13 +275,14 @@ def _points(received: Received) -> NDArray[np.float64]:
         return np.empty((0, 3))
 
 
-def _distance(scan: _Scan, points: NDArray[np.float64]) -> float:
+def _distance(scan: SentScan, points: NDArray[np.float64]) -> float:
     """Return the maximum distance of a point from its correct position, in meters; infinity if points are missing."""
     finite = points[np.isfinite(points).all(axis=1)]
-    if len(points) == len(scan.points):
-        return float(np.linalg.norm(points - scan.points, axis=1).max()) if len(finite) == len(points) else math.inf
-    if not len(finite) or not len(scan.points):
+    expected = scan.points
+    if len(points) == len(expected):
+        return float(np.linalg.norm(points - expected, axis=1).max()) if len(finite) == len(points) else math.inf
+    if not len(finite) or not len(expected):
         return math.inf
     # With a different number of points, each correct point needs a point near it.
-    gaps = np.linalg.norm(scan.points[:, None, :] - finite[None, :, :], axis=2)
+    gaps = np.linalg.norm(expected[:, None, :] - finite[None, :, :], axis=2)
     return float(gaps.min(axis=1).max())

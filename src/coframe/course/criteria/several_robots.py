@@ -41,7 +41,7 @@ def check(task: Task) -> Sheet:
                 len(right) / len(_ARM_PARENTS),
                 expected=f"{prefix}base_link -> {prefix}link1 -> {prefix}link2 -> {prefix}end_effector",
                 observed=f"{len(right)} of 3 transforms",
-                cause="the prefix ends with a slash and precedes both the parent and the child",
+                cause=_prefix_cause(parents, prefix),
                 read=_READ,
             )
         bare = sorted(name for name in parents if name in {*_ARM_PARENTS, "base_link"})
@@ -51,7 +51,7 @@ def check(task: Task) -> Sheet:
             bool(parents) and not bare,
             expected="only frames shared by both robots, such as map, have no prefix",
             observed=f"frames without a prefix: {', '.join(bare)}" if bare else "no transforms",
-            cause="one of the frame names has no prefix",
+            cause="these frame names have no prefix" if bare else "",
             read=_READ,
         )
         trees = FrameTrees.from_parents(parents)
@@ -61,7 +61,7 @@ def check(task: Task) -> Sheet:
             len(trees.roots) == 1 and _have_different_poses(edges),
             expected="map -> robot1/... and map -> robot2/... with different poses",
             observed=f"{len(trees.roots)} trees" if len(trees.roots) != 1 else "both robots are at the same place",
-            cause="a static transform from map to the first frame of each robot is missing",
+            cause=_separate_cause(parents),
             read=_READ,
         )
     return sheet
@@ -79,3 +79,21 @@ def _have_different_poses(edges: list[Any]) -> bool:
             if edge.child_frame_id.startswith(prefix) and not edge.header.frame_id.startswith(prefix):
                 into[prefix] = read_edge(edge).translation
     return len(into) == 2 and abs(into[_ROBOTS[0]] - into[_ROBOTS[1]]).max() > 0.01
+
+
+def _prefix_cause(parents: dict[str, str], prefix: str) -> str:
+    """Return the mistake in the names of a robot, or ""."""
+    without = prefix.rstrip("/")
+    for child, parent in _ARM_PARENTS.items():
+        if parents.get(prefix + child) == parent:
+            return f"the parent {parent!r} has no prefix: use {prefix + parent!r}"
+        if parents.get(child) == prefix + parent:
+            return f"the child {child!r} has no prefix: use {prefix + child!r}"
+    if any(name.startswith(without) and not name.startswith(prefix) for name in parents):
+        return f"the prefix must end with a slash: {prefix!r}"
+    return ""
+
+
+def _separate_cause(parents: dict[str, str]) -> str:
+    missing = [f"{prefix}base_link" for prefix in _ROBOTS if f"{prefix}base_link" not in parents]
+    return f"no transform to {' and '.join(missing)}" if missing and parents else ""

@@ -5,10 +5,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from coframe.course._sheet import Sheet
-from coframe.course.criteria.common import TOLERANCE, Task, difference_text, read_edge, run_program
+from coframe.course.criteria.causes import edge_cause, pose_cause, quaternion_values
+from coframe.course.criteria.common import (
+    TOLERANCE,
+    Task,
+    difference_text,
+    norm_of,
+    read_edge,
+    run_program,
+    transforms_on_tf,
+)
 from coframe.course.rubric import RUBRIC
 from coframe.transform.transform import Transform
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
@@ -21,21 +28,46 @@ if TYPE_CHECKING:
 __all__ = ["check"]
 
 _TOPIC = "/tf_static"
-_NOT_UNIT_CAUSE = "0.707 is not the square root of one half: use math.sqrt(0.5)"
-_WRONG_BROADCASTER_CAUSE = (
+_WRONG_BROADCASTER = (
     "TransformBroadcaster sends on /tf, where late-joining listeners miss it: use StaticTransformBroadcaster"
 )
+_OWN_PUBLISHER = "the publisher of /tf_static has other QoS: use StaticTransformBroadcaster"
 _LATE_JOINER_TIME = 3.0  # seconds of real time in which a late listener receives stored transforms
 _READ = "handbook chapter 3, static and dynamic transforms"
+
+
+class _Sent:
+    """The transforms that the program has sent, by child frame.
+
+    Attributes:
+        static: Those on /tf_static.
+        dynamic: Those on /tf.
+        late: Those on /tf_static that a late listener received.
+        messages: The frames of each message on /tf_static.
+    """
+
+    def __init__(self, static: list[Received], dynamic: list[Received], late: list[Received]) -> None:
+        self.static, self.dynamic, self.late = (_group_by_child(each) for each in (static, dynamic, late))
+        self.messages = [{each.child_frame_id for each in one.message.transforms} for one in static]
+
+    def last(self, frame: str) -> Any:
+        """Return the last transform to a frame, or None."""
+        found = self.static.get(frame) or self.dynamic.get(frame)
+        return found[-1] if found else None
+
+    def edges(self) -> list[tuple[str, str]]:
+        """Return the parent and child of each transform."""
+        sent = (each for group in (self.static, self.dynamic) for messages in group.values() for each in messages)
+        return [(each.header.frame_id, each.child_frame_id) for each in sent]
 
 
 def check(task: Task) -> Sheet:
     """Check ``static_tf_broadcaster.py``."""
     sheet = Sheet.of(RUBRIC["static"])
     world = task.world
-    with run_program(task, sheet, wrong_topic="/tf") as program:
+    with run_program(task, sheet, outputs=["/tf"]) as program:
         static = world.watch(_TOPIC, TFMessage, latched=True)
-        dynamic = world.watch("/tf", TFMessage)
+        dynamic = world.watch("/tf", TFMessage), world.watch("/tf", TFMessage, latched=True)
         if program is not None:
             world.start(program)
             world.run(5.0)
@@ -44,11 +76,10 @@ def check(task: Task) -> Sheet:
             frames = {mount.frame for mount in task.assignment.mounts}
             world.wait_until(lambda: frames <= _group_by_child(late).keys(), _LATE_JOINER_TIME)
             world.run(0.3)
-        sent, repeated = _group_by_child(static), _find_repeated(_group_by_child(dynamic))
-        missing = _WRONG_BROADCASTER_CAUSE if world.publishers_of("/tf") else "a misspelled child_frame_id"
+        sent = _Sent(static, transforms_on_tf(*dynamic), late)
         for mount in task.assignment.mounts:
-            _check_mount(sheet, mount, sent.get(mount.frame) or repeated.get(mount.frame, []), missing)
-        _check_delivery(sheet, task, sent, repeated, _group_by_child(late))
+            _check_mount(sheet, task, mount, sent)
+        _check_delivery(sheet, task, sent)
     return sheet
 
 
@@ -60,77 +91,58 @@ def _group_by_child(received: list[Received]) -> dict[str, list[Any]]:
     return found
 
 
-def _find_repeated(sent: dict[str, list[Any]]) -> dict[str, list[Any]]:
-    """Return the transforms that were sent repeatedly; one sent only once on /tf may or may not arrive."""
-    return {child: messages for child, messages in sent.items() if len(messages) > 1}
-
-
-def _check_mount(sheet: Sheet, mount: Mount, messages: list[Any], missing: str) -> None:
+def _check_mount(sheet: Sheet, task: Task, mount: Mount, sent: _Sent) -> None:
+    known = {"base_link", "end_effector", *(each.frame for each in task.assignment.mounts)}
+    message = sent.last(mount.frame)
+    cause = edge_cause(mount.parent, mount.frame, sent.edges(), known)
+    others = ", ".join(f"{parent} -> {child}" for parent, child in dict.fromkeys(sent.edges()) if child not in known)
     sheet.check(
         1,
         f"{mount.frame} has the parent {mount.parent}",
-        bool(messages) and messages[-1].header.frame_id == mount.parent,
+        message is not None and message.header.frame_id == mount.parent,
         expected=f"a transform from {mount.parent} to {mount.frame}",
-        observed=f"the parent is {messages[-1].header.frame_id!r}" if messages else f"no transform to {mount.frame}",
-        cause="header.frame_id is the parent, child_frame_id the sensor" if messages else missing,
+        observed=f"the parent is {message.header.frame_id!r}"
+        if message is not None
+        else f"no transform to {mount.frame}" + (f"; received: {others}" if others else ""),
+        cause=cause,
         read=_READ,
     )
     correct = Transform(mount.translation, mount.quaternion)
-    difference = difference_text(read_edge(messages[-1]), correct) if messages else "no transform"
-    norm = _quaternion_norm(messages[-1]) if messages else 1.0
-    is_unit = abs(norm - 1.0) <= TOLERANCE
+    length = 1.0 if message is None else norm_of(message.transform.rotation)
+    wrong = "" if message is None else difference_text(read_edge(message), correct)
     sheet.check(
         3,
         f"{mount.frame} is at the correct position",
-        1.0 if not difference and is_unit else 2 / 3 if not difference else 0.0,
+        0.0 if message is None or wrong or not length else 1.0 if abs(length - 1.0) <= TOLERANCE else 2 / 3,
         expected=f"position {list(mount.translation)} m, rotation {_round_values(mount.quaternion)} (x, y, z, w)",
-        observed=difference or f"the quaternion has the length {norm:.6f} instead of 1",
-        cause=_pose_cause(messages, mount) if difference else _NOT_UNIT_CAUSE,
+        observed=f"no transform to {mount.frame}"
+        if message is None
+        else f"the quaternion is {_round_values(quaternion_values(message.transform.rotation).tolist())}"
+        if not length
+        else wrong or f"the quaternion has the length {length:.6f} instead of 1",
+        cause=cause if message is None else pose_cause(read_edge(message), message.transform.rotation, correct),
         read="handbook chapter 2, rotations and quaternions",
     )
 
 
-def _round_values(values: tuple[float, ...]) -> list[float]:
+def _round_values(values: tuple[float, ...] | list[float]) -> list[float]:
     return [round(value, 7) for value in values]
 
 
-def _quaternion_norm(message: Any) -> float:
-    turned = message.transform.rotation
-    return float(np.linalg.norm([turned.x, turned.y, turned.z, turned.w]))
-
-
-def _pose_cause(messages: list[Any], mount: Mount) -> str:
-    """Return the likely cause of a wrong pose."""
-    if not messages:
-        return "the transform is not sent"
-    pose = read_edge(messages[-1])
-    if not difference_text(pose, Transform(mount.translation)):
-        return "the rotation is missing: the quaternion is the identity"
-    x, y, z, w = pose.quaternion.tolist()
-    for quaternion, cause in (
-        ((y, z, w, x), "the quaternion is in the order w, x, y, z; ROS uses x, y, z, w"),
-        ((-x, -y, -z, w), "the rotation is inverted"),
-    ):
-        if not difference_text(Transform(pose.translation, quaternion), Transform(mount.translation, mount.quaternion)):
-            return cause
-    inverse = Transform(mount.translation, mount.quaternion).inverse()
-    if not difference_text(pose, inverse):
-        return "the transform is inverted: it must be the pose of the sensor relative to its parent"
-    return "values that differ from the assignment (lab.json, README.md)"
-
-
-def _check_delivery(
-    sheet: Sheet, task: Task, static: dict[str, list[Any]], dynamic: dict[str, list[Any]], late: dict[str, list[Any]]
-) -> None:
-    frames = [mount.frame for mount in task.assignment.mounts]
-    on_static = [frame for frame in frames if frame in static and frame not in dynamic]
+def _check_delivery(sheet: Sheet, task: Task, sent: _Sent) -> None:
+    wanted = [mount.frame for mount in task.assignment.mounts]
+    # Only frames that were sent: a wrong name has lost its points already.
+    frames = [frame for frame in wanted if sent.last(frame) is not None] or wanted
+    on_static = [frame for frame in frames if frame in sent.static and frame not in sent.dynamic]
+    on_tf = [frame for frame in frames if frame in sent.dynamic]
+    wrong_topic = _WRONG_BROADCASTER if on_tf else ""
     sheet.check(
         2,
         "the transforms are on /tf_static",
         len(on_static) / len(frames),
-        expected="all three on /tf_static, none on /tf",
-        observed=f"{len(on_static)} of 3 on /tf_static, {len(set(frames) & dynamic.keys())} on /tf",
-        cause=_WRONG_BROADCASTER_CAUSE,
+        expected="all on /tf_static, none on /tf",
+        observed=f"{len(on_static)} of {len(frames)} on /tf_static, {len(on_tf)} on /tf",
+        cause=wrong_topic,
         read=_READ,
     )
     offers = [info.qos_profile for info in task.world.publishers_of(_TOPIC)]
@@ -144,26 +156,43 @@ def _check_delivery(
         bool(durable) and all(durable),
         expected="reliable, transient local",
         observed=", ".join(f"{qos.reliability.name}, {qos.durability.name}" for qos in offers) or "no publisher",
-        cause="your own publisher with default QoS: use StaticTransformBroadcaster",
+        cause=_OWN_PUBLISHER if offers else wrong_topic,
         read=_READ,
     )
-    reached = [frame for frame in frames if frame in late]
+    reached = [frame for frame in frames if frame in sent.late]
+    is_durable = bool(durable) and all(durable)
     sheet.check(
-        3,
+        2,
         "a listener that joins 5 s later receives the transforms",
         len(reached) / len(frames),
-        expected="all three transforms",
-        observed=f"{len(reached)} of 3: {', '.join(reached) or 'none'}",
-        cause="one sendTransform call per transform: ROS 2 Humble delivers only the last call. Send one list",
+        expected="all transforms",
+        observed=f"{len(reached)} of {len(frames)}: {', '.join(reached) or 'none'}",
+        cause=_OWN_PUBLISHER if offers and not is_durable else wrong_topic,
         read=_READ,
     )
-    most = max((len(static.get(frame, [])) for frame in frames), default=0)
+    in_one_call = any(set(frames) <= message for message in sent.messages) or (not sent.static and bool(on_tf))
+    largest = max(map(len, sent.messages), default=0)
+    sheet.check(
+        1,
+        "the transforms are sent in one call",
+        in_one_call,
+        expected="one sendTransform call with a list of all transforms",
+        observed=f"{len(sent.messages)} calls with at most {largest} transforms" if sent.messages else "no call",
+        cause="sendTransform is called for each transform: late listeners of ROS 2 Humble receive only the last call. "
+        "Send one list"
+        if len(sent.messages) > 1
+        else "",
+        read=_READ,
+    )
+    most = max((len(sent.static.get(frame) or sent.dynamic.get(frame) or []) for frame in frames), default=0)
     sheet.check(
         1,
         "the transforms are sent once",
         most == 1,
         expected="each transform is sent once",
         observed=f"sent {most} times in 5 s",
-        cause="sendTransform in a timer: static transforms are stored by the middleware",
+        cause="sendTransform is called repeatedly, as in a timer: the middleware stores static transforms"
+        if most > 1
+        else "",
         read=_READ,
     )

@@ -46,7 +46,6 @@ def check(task: Task) -> Sheet:
         description is not None,
         expected="a URDF or xacro file without errors",
         observed=problem,
-        cause="coframe robot FILE prints the error with its line number",
         read=_READ,
     )
     _check_joints(sheet, description)
@@ -66,7 +65,6 @@ def _check_joints(sheet: Sheet, description: Description | None) -> None:
         sorted(names) == ["joint1", "joint2"],
         expected="two movable joints, joint1 and joint2",
         observed=f"movable joints: {', '.join(names) or 'none'}",
-        cause="the names must be those in /joint_states",
         read=_READ,
     )
 
@@ -84,7 +82,6 @@ def _check_kinematics(sheet: Sheet, task: Task, description: Description | None)
             not difference,
             expected="the analytic pose for five pairs of joint angles",
             observed=difference,
-            cause="an origin of a joint, or its axis",
             read=_READ,
         )
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe.doctor._finding import Finding, Severity
-from coframe.doctor._quaternion_causes import likely_cause
 from coframe.doctor._transforms import NORM_TOLERANCE
+from coframe.doctor.quaternion_causes import likely_cause
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

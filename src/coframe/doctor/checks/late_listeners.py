@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from coframe.doctor.observation import Observation, ObservedLogLine
 
-__all__ = ["CODE", "find"]
+__all__ = ["CODE", "find", "lookup_advice"]
 
 CODE = "TF025"
 _MIN_TRANSFORMS = 3
@@ -49,6 +49,11 @@ def find(observation: Observation) -> Iterator[Finding]:
     yield from _logged_errors(observation)
     if not observation.live:
         yield from _bursts(observation)
+
+
+def lookup_advice(text: str) -> str:
+    """Return what to do about a failed lookup, given the text of tf2's exception, or "" if it is not known."""
+    return next((advice for pattern, advice in _KNOWN_FAILURES if pattern.search(text)), "")
 
 
 def _logged_errors(observation: Observation) -> Iterator[Finding]:

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Causes of lost points, found by trying: a usual mistake is named only if it explains what was observed.
+
+All functions return "" if no usual mistake fits. The report then prints no cause.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from coframe.analysis.similar_frames import is_misspelling
+from coframe.doctor.checks.late_listeners import lookup_advice
+from coframe.doctor.pose_mistakes import explain
+from coframe.doctor.quaternion_causes import likely_cause
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable
+
+    from coframe.transform.transform import Transform
+
+__all__ = [
+    "BLOCKED",
+    "NO_ROTATION_VALUES",
+    "edge_cause",
+    "log_cause",
+    "name_mistake",
+    "period_cause",
+    "pose_cause",
+    "quaternion_values",
+]
+
+BLOCKED = (
+    "the node does not run its callbacks: a loop or a sleep, for example in the constructor, prevents rclpy.spin(node) "
+    "from running them. Use create_timer"
+)
+NO_ROTATION_VALUES = "the quaternion is 0, 0, 0, 0, so tf2 rejects the transform: without a rotation, w is 1.0"
+_SWAPPED = "parent and child are swapped: header.frame_id is the parent, child_frame_id is the child"
+_TYPED_DIGITS = (
+    "the components of the quaternion are rounded, so its length is not 1: use math.sqrt(0.5), or math.sin and "
+    "math.cos of half the angle, instead of typed digits such as 0.707"
+)
+_ROUNDED = 5e-4  # the error of a component that was typed with three digits
+_UNIT_TOLERANCE = 1e-6
+_MAX_PERIOD_ERROR = 0.02  # as a fraction
+# The first line of the failure of a lookup, as tf2 writes it.
+_FAILED_LOOKUP = re.compile(
+    r'(?:"[^"]+" passed to lookupTransform[^\n]*|[^\n\]:]*(?:Lookup would require|Could not find a connection)[^\n]*)'
+)
+
+
+def name_mistake(found: str, wanted: str) -> str:
+    """Return how a name differs from the wanted one, if it is probably the same name.
+
+    Example:
+        >>> name_mistake("/imu_link", "imu_link")
+        "the name '/imu_link' begins with a slash: use 'imu_link'"
+        >>> name_mistake("end_efector", "end_effector"), name_mistake("odom", "map")
+        ("'end_efector' looks like a misspelling of 'end_effector'", '')
+    """
+    if found == wanted:
+        return ""
+    if found.strip("/") == wanted.strip("/"):
+        verb = "begins" if found.startswith("/") else "ends"
+        return f"the name {found!r} {verb} with a slash: use {wanted!r}"
+    if found.strip().lower() == wanted.lower():
+        return f"{found!r} is another name than {wanted!r}: names are compared letter by letter"
+    return f"{found!r} looks like a misspelling of {wanted!r}" if is_misspelling(found, wanted) else ""
+
+
+def edge_cause(parent: str, child: str, edges: Iterable[tuple[str, str]], known: Collection[str]) -> str:
+    """Return why an edge was not received, given the received edges as parent and child.
+
+    Args:
+        parent: The parent of the missing edge.
+        child: Its child.
+        edges: The received edges.
+        known: The frames of the task, which are not misspellings of each other.
+    """
+    received = list(dict.fromkeys(edges))
+    if (child, parent) in received:
+        return _SWAPPED
+    for found_parent, found_child in received:
+        if found_child == child and found_parent != parent:
+            mistake = "" if found_parent in known else name_mistake(found_parent, parent)
+            return mistake or f"header.frame_id is {found_parent!r} instead of {parent!r}"
+    for _, found_child in received:
+        if found_child not in known and (mistake := name_mistake(found_child, child)):
+            return mistake
+    return ""
+
+
+def quaternion_values(turned: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """Return the values of a Quaternion message in the order x, y, z, w."""
+    return np.array([turned.x, turned.y, turned.z, turned.w])
+
+
+def pose_cause(pose: Transform, turned: Any, expected: Transform) -> str:
+    """Return the mistake in a published pose, or in the length of its quaternion.
+
+    Args:
+        pose: The published pose, normalized.
+        turned: The Quaternion message of the published pose.
+        expected: The correct pose.
+    """
+    values = quaternion_values(turned)
+    length = float(np.linalg.norm(values))
+    if length == 0.0:
+        return NO_ROTATION_VALUES
+    if abs(length - 1.0) > _UNIT_TOLERANCE:
+        correct = expected.quaternion * np.sign(expected.quaternion @ values or 1.0)
+        if np.abs(values - correct).max() < _ROUNDED:
+            return _TYPED_DIGITS
+        if np.isfinite(values).all() and (cause := likely_cause(values[None])):
+            return f"{cause.text}. {cause.fix}".rstrip(".")
+    if np.allclose(pose.quaternion, [0.0, 0.0, 0.0, 1.0]) and not np.allclose(
+        np.abs(expected.quaternion), [0.0, 0.0, 0.0, 1.0]
+    ):
+        moved = "" if np.allclose(pose.translation, expected.translation, atol=1e-6) else ", and the position is wrong"
+        return f"the rotation is missing: the quaternion is the identity{moved}"
+    found = explain(_row(pose), _row(expected), meters=_UNIT_TOLERANCE, radians=_UNIT_TOLERANCE)
+    if found is None or np.isnan(found.meters + found.radians):
+        return ""
+    return f"the pose is correct if {found.reading}. {found.fix}".rstrip(".")
+
+
+def _row(pose: Transform) -> np.ndarray[Any, np.dtype[np.float64]]:
+    return np.concatenate([pose.translation, pose.quaternion])[None]
+
+
+def period_cause(rate: float, wanted: float) -> str:
+    """Return the mistake in the period of a timer, from the measured and the wanted rate in Hz.
+
+    Example:
+        >>> period_cause(0.05, 50.0)
+        'the period of the timer is 20 s: create_timer takes seconds, so 0.02 instead of 20'
+        >>> period_cause(5.0, 50.0)
+        'the period of the timer is 0.2 s; for 50 Hz it must be 0.02 s'
+    """
+    if rate <= 0.0 or abs(rate - wanted) <= 0.1 * wanted:
+        return ""
+    period, right = 1.0 / rate, 1.0 / wanted
+    if abs(period - 1000.0 * right) <= _MAX_PERIOD_ERROR * period:
+        units = f"create_timer takes seconds, so {right:g} instead of {1000.0 * right:g}"
+        return f"the period of the timer is {period:.3g} s: {units}"
+    if abs(period - wanted) <= _MAX_PERIOD_ERROR * period:
+        return f"the period of the timer is {period:.3g} s: the rate {wanted:g} is used as the period {right:g}"
+    return f"the period of the timer is {period:.3g} s; for {wanted:g} Hz it must be {right:g} s"
+
+
+def log_cause(output: str) -> str:
+    """Return the last failed lookup in the output of a program, with the advice that the doctor gives about it."""
+    failures = [each.strip() for each in _FAILED_LOOKUP.findall(output)]
+    if not failures:
+        return ""
+    return f"its lookups fail: {failures[-1][:200].rstrip('.')}. {lookup_advice(failures[-1])}".rstrip(". ")
