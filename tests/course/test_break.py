@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The ten systems with a fault run, and the fault can be observed."""
+"""The systems with a fault run, and the fault can be observed."""
 
 import subprocess
 import sys

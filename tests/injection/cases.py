@@ -171,6 +171,7 @@ OWN_TEXT_ONLY = {
     "interface check": "the user's own folder",
     "interface remove": "the user's own folder",
     "interface stubs": "the user's own folder",
+    "lab autograder": "coframe's own files",
     "lab break": "coframe's own nodes",
     "lab check": "tests/course runs it on hostile programs",
     "lab handbook": "coframe's own text",

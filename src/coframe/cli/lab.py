@@ -3,20 +3,18 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import shlex
 import sys
 import threading
-from contextlib import closing
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from coframe._files.complete_files import complete_or_absent, write_complete
-from coframe._output.escaping import csv_cell
+from coframe._files.complete_files import write_complete
 from coframe.cli.declaration import PATH, CommandGroup, argument
+from coframe.cli.lab_class import ClassOptions, grade_class
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
 from coframe.cli.options import NonNegativeDuration, duration_option
 from coframe.cli.output import fail, print_bounded, printable, report_console, warn
@@ -25,14 +23,18 @@ from coframe.cli.view import open_browser, optional_viewer, port_option
 from coframe.connection.connection import connect
 from coframe.course import formats
 from coframe.course.assignment import ASSIGNMENT_FILE
-from coframe.course.checking import check_class, check_folder, submissions
-from coframe.course.faults import FAULTS
+from coframe.course.autograder import PLATFORMS, write_autograder
+from coframe.course.checking import check_folder
+from coframe.course.faults import FAULTS, draw, named_fault
+from coframe.course.feedback import FEEDBACK_FORMATS
 from coframe.course.first_output import FirstOutput
-from coframe.course.folders import create_folder
+from coframe.course.folders import create_class, create_folder
+from coframe.course.gradebooks import ASSIGNMENT
 from coframe.course.handbook import chapters, contents, terminal_text, write_pages
 from coframe.course.isolation import isolation_problem
+from coframe.course.roster import read_roster
 from coframe.course.rubric import CRITERIA
-from coframe.course.running import COMPLETE_TREE_FILES, NODE_FILES, SIMULATION, programs_of, running
+from coframe.course.running import COMPLETE_TREE_FILES, NODE_FILES, programs_of, running, simulation
 from coframe.course.submitted import check_outputs
 from coframe.errors import CourseError
 
@@ -55,6 +57,12 @@ folder_argument = argument(
 variant_option = click.option(
     "--variant", metavar="SEED", type=int, help="Seed of a variant with different lengths, sensor mounts and rates."
 )
+roster_option = click.option(
+    "--roster",
+    metavar="FILE",
+    type=PATH,
+    help="CSV file with the students: columns name, email, id, variant; or the worksheet of Moodle, or of Canvas.",
+)
 lab = CommandGroup(
     "lab",
     help="Work on the lab: create a folder, run its nodes and grade them.\n\nExample: coframe lab new",
@@ -70,12 +78,26 @@ lab = CommandGroup(
     help="Folder to create. [default: lab]",
 )
 @variant_option
-def new(folder: Path, variant: int | None) -> None:
+@roster_option
+@click.option("--zip", "as_zip", is_flag=True, help="With --roster: create a zip file per student, not a folder.")
+def new(folder: Path, variant: int | None, roster: Path | None, as_zip: bool) -> None:
     """Create a folder with the files of the lab: stubs with a task in each docstring, an RViz file and a README.
+
+    With --roster, FOLDER gets a folder for each student, each with a variant of its own.
 
     Example: coframe lab new my_lab --variant 4711
     """
+    if roster is None and as_zip:
+        fail("--zip applies to a class", "Add --roster, or omit --zip.", code=2)
+    if roster is not None and variant is not None:
+        fail("--variant and --roster exclude each other", "The variants are in the roster.", code=2)
     with run_to_completion():
+        if roster is not None:
+            students = read_roster(roster)
+            places = create_class(folder, students, as_zip=as_zip)
+            for student, place in zip(students.students, places, strict=True):
+                print(f"created {printable(str(place))} for {printable(student.name)}, variant {student.variant}")
+            return
         for path in create_folder(folder, variant):
             print(f"created {printable(str(path))}")
         command = f"coframe lab run {shlex.quote(printable(str(folder)))}"
@@ -85,26 +107,34 @@ def new(folder: Path, variant: int | None) -> None:
 @lab.command(short_help="Run the nodes of a folder with a simulated robot.")
 @folder_argument
 @click.option("--complete", is_flag=True, help="Run complete_tf_tree.py instead of the two broadcasters.")
+@click.option("--joints", is_flag=True, help="Also publish joint states, which the arm has to follow.")
+@click.option("--gripper", is_flag=True, help="Mount the lidar on the moving gripper instead of the base.")
 @click.option("--browser/--no-browser", default=True, help="Open the viewer in the browser.")
 @port_option
 @duration_option
 def run(
     folder: Path | None,
     complete: bool,
+    joints: bool,
+    gripper: bool,
     browser: bool,
     port: int | None,
     duration: NonNegativeDuration | None,
 ) -> None:
-    """Run the nodes of a folder with simulated joints and a simulated lidar, and show them in the viewer.
+    """Run the nodes of a folder with a simulated lidar, and show them in the viewer.
 
-    Each output line is prefixed with the name of its node. The viewer's findings show what is missing.
+    The arm moves as step 2 simulates it. With --joints, it has to follow the joint states of the robot: if it jumps
+    between two poses, its simulation continues next to them. Each output line is prefixed with the name of its node. The
+    viewer's findings show what is missing.
 
     Example: coframe lab run my_lab
     """
     seconds = None if duration is None else duration.seconds
-    simulation = SIMULATION[1:] if complete else SIMULATION
+    if complete and joints:
+        fail("--joints applies to step 2", "Omit it, or omit --complete.", code=2)
     with run_until_interrupted():
-        programs = [*programs_of(_folder(folder), COMPLETE_TREE_FILES if complete else NODE_FILES), *simulation]
+        programs = programs_of(_folder(folder), COMPLETE_TREE_FILES if complete else NODE_FILES)
+        programs += simulation(joints=joints, gripper=gripper)
         print(
             "Your nodes are running with a simulated robot. Press Ctrl-C to stop them. The viewer shows them:",
             flush=True,
@@ -114,12 +144,31 @@ def run(
 
 @lab.command(short_help="Grade one student's folder, or a whole class.")
 @folder_argument
-@click.option("--all", "everyone", is_flag=True, help="Grade all folders in FOLDER, one per student.")
+@click.option("--all", "everyone", is_flag=True, help="Grade all folders and zip files in FOLDER, one per student.")
 @click.option("--output", "-o", metavar="FILE", type=PATH, help="With --all: write the grades as a CSV table.")
 @click.option(
     "--only", metavar="CRITERION", multiple=True, help=f"Check only this criterion: {', '.join(CRITERIA)}; repeatable."
 )
 @variant_option
+@roster_option
+@click.option("--resume", is_flag=True, help="With -o: keep the results of an earlier run for unchanged submissions.")
+@click.option("--moodle", metavar="FILE", type=PATH, help="With --roster: write the grades for Moodle's gradebook.")
+@click.option("--canvas", metavar="FILE", type=PATH, help="With --roster: write the grades for Canvas's gradebook.")
+@click.option(
+    "--column",
+    metavar="NAME",
+    default=ASSIGNMENT,
+    help=f"With --canvas: column of the assignment. [default: {ASSIGNMENT}]",
+)
+@click.option("--feedback", metavar="FOLDER", type=PATH, help="With --all: write a file for each student to FOLDER.")
+@click.option(
+    "--feedback-format",
+    metavar="FORMAT",
+    type=click.Choice(FEEDBACK_FORMATS),
+    default=FEEDBACK_FORMATS[0],
+    help="With --feedback: html, with figures, or txt. [default: html]",
+)
+@click.option("--similarity", metavar="FILE", type=PATH, help="With --all: write pairs of similar programs as CSV.")
 @click.option("--json", "as_json", is_flag=True, help="Print the report as JSON.")
 @click.option("--gradescope", metavar="FILE", type=PATH, help="Write Gradescope's results.json.")
 @click.option("--classroom", metavar="FILE", type=PATH, help="Write the result for GitHub Classroom.")
@@ -140,6 +189,14 @@ def check(
     output: Path | None,
     only: tuple[str, ...],
     variant: int | None,
+    roster: Path | None,
+    resume: bool,
+    moodle: Path | None,
+    canvas: Path | None,
+    column: str,
+    feedback: Path | None,
+    feedback_format: str,
+    similarity: Path | None,
     as_json: bool,
     gradescope: Path | None,
     classroom: Path | None,
@@ -149,7 +206,7 @@ def check(
     """Grade the nodes in a folder by what they publish: up to 100 points, plus 10 for each of four extensions.
 
     The nodes run with a simulated clock and limits on time, memory and output. The exit code is 0 regardless of the
-    grade.
+    grade. With --all, each grade is written as soon as it is known, and Ctrl-C keeps what is finished.
 
     Example: coframe lab check my_lab
     """
@@ -157,15 +214,27 @@ def check(
     if unknown := set(chosen) - set(CRITERIA):
         fail(f"--only: unknown criterion {', '.join(sorted(unknown))}", f"Criteria: {', '.join(CRITERIA)}.", code=2)
     formatted = ((gradescope, formats.gradescope), (classroom, formats.classroom))
-    if everyone and (record or gradescope or classroom):
-        fail("--gradescope, --classroom and --record apply to a single folder", "Omit them, or omit --all.", code=2)
-    if output and not everyone:
-        fail("-o writes the grades of a class", "Add --all, or use --json for the report of one folder.", code=2)
+    for_one: dict[str, object] = {"--record": record, "--gradescope": gradescope, "--classroom": classroom}
+    for_class: dict[str, object] = {"--roster": roster, "--resume": resume, "--moodle": moodle, "--canvas": canvas}
+    for_class |= {"--feedback": feedback, "--similarity": similarity, "-o": output}
+    if everyone:
+        _refuse_given(for_one, "only for a single folder", "Omit it, or omit --all.")
+    else:
+        _refuse_given(for_class, "only for a class", "Add --all, or use --json for the report of one folder.")
+    if (moodle or canvas) and not roster:
+        fail("--moodle and --canvas need the students", "Add --roster FILE.", code=2)
+    if resume and not output:
+        fail("--resume continues an earlier run", "Add -o with the file of that run.", code=2)
     with run_to_completion():
         if problem := isolation_problem():
             warn(problem)
         if everyone:
-            _check_class(folder or Path("lab"), output, jobs, variant, chosen, as_json=as_json)
+            grade_class(
+                ClassOptions(
+                    folder or Path("lab"), output, jobs, variant, chosen, roster, resume, moodle, canvas, column,
+                    feedback, feedback_format, similarity, as_json,
+                )
+            )  # fmt: skip
             return
         student = _folder(folder)
         check_outputs((record, gradescope, classroom), student)
@@ -183,6 +252,12 @@ def check(
             print(printable(line))
 
 
+def _refuse_given(options: dict[str, object], reason: str, hint: str) -> None:
+    """Fail if one of the options is given."""
+    if given := [name for name, value in options.items() if value]:
+        fail(f"{', '.join(given)}: {reason}", hint, code=2)
+
+
 def _write_reports(
     report: dict[str, Any], formatted: Iterable[tuple[Path | None, Callable[[dict[str, Any]], dict[str, Any]]]]
 ) -> None:
@@ -191,38 +266,63 @@ def _write_reports(
             write_complete(path, f"{json.dumps(convert(report), indent=2)}\n".encode())
 
 
+@lab.command(short_help="Write a package that grades submissions elsewhere.")
+@argument("platform", metavar="PLATFORM", type=click.Choice(sorted(PLATFORMS)), help="gradescope, classroom or docker.")
+@click.option("--output", "-o", metavar="FOLDER", type=PATH, required=True, help="Folder for the files of the package.")
+@click.option("--wheel", metavar="FILE", type=PATH, required=True, help="Wheel of coframe, which the package installs.")
+@variant_option
+def autograder(platform: str, output: Path, wheel: Path, variant: int | None) -> None:
+    """Write a complete autograder for Gradescope or GitHub Classroom, or a Docker image that grades a class.
+
+    Example: coframe lab autograder gradescope -o autograder --wheel dist/coframe-1.0-cp312-cp312-linux_x86_64.whl
+    """
+    with run_to_completion():
+        for path in write_autograder(platform, output, wheel, variant):
+            print(f"created {printable(str(path))}")
+
+
 @lab.command("break", short_help="Start a system with a fault to diagnose.")
 @argument(
-    "number", metavar="N", type=click.IntRange(min=1, max=len(FAULTS)), help=f"Number of a fault, 1 to {len(FAULTS)}."
+    "number",
+    metavar="[N]",
+    type=click.IntRange(min=1, max=len(FAULTS)),
+    required=False,
+    help=f"Number of a fault, 1 to {len(FAULTS)}; omit it with --random.",
 )
+@click.option("--random", "seed", metavar="SEED", help="Draw the fault that belongs to this text, for an examination.")
 @click.option("--answer", metavar="FAULT", help="Check this answer instead of starting the system.")
 @click.option("--browser/--no-browser", help="Open the viewer in the browser; its findings are a hint.")
 @port_option
 @duration_option
 def break_(
-    number: int,
+    number: int | None,
+    seed: str | None,
     answer: str | None,
     browser: bool,
     port: int | None,
     duration: NonNegativeDuration | None,
 ) -> None:
-    """Start the robot of the lab with one of ten faults. Find it with the viewer, echo, monitor and frames.
+    """Start the robot of the lab with one of its faults. Find it with the viewer, echo, monitor and frames.
 
     coframe doctor and the viewer's findings count as hints.
 
-    Then give your answer: coframe lab break N --answer "FAULT".
+    Then give your answer in your own words: coframe lab break N --answer "FAULT".
 
     Example: coframe lab break 3
     """
+    if (number is None) is (seed is None):
+        fail("give either a number or --random SEED", f"Numbers: 1 to {len(FAULTS)}.", code=2)
+    chosen = draw(seed or "") if number is None else number
+    words = f"--random {shlex.quote(seed or '')}" if number is None else f"{number}"
     if answer is not None:
-        _print_verdict(number, answer)
+        _print_verdict(chosen, answer)
         return
     seconds = None if duration is None else duration.seconds
-    print(f"System {number} is running in this ROS domain. What is wrong with it? Stop it with Ctrl-C.")
-    print(f'Then answer with: coframe lab break {number} --answer "FAULT", where FAULT is one of:')
+    print(f"System {words} is running in this ROS domain. What is wrong with it? Stop it with Ctrl-C.")
+    print(f'Then answer with: coframe lab break {words} --answer "FAULT", where FAULT is one of:')
     print(f"  {', '.join(sorted(each.name for each in FAULTS))}", flush=True)
     with run_until_interrupted():
-        _run(FAULTS[number - 1].programs, seconds, browser=browser, port=port)
+        _run(FAULTS[chosen - 1].programs, seconds, browser=browser, port=port)
 
 
 @lab.command(short_help="Read the handbook of the course.")
@@ -312,53 +412,10 @@ def _run(
 
 
 def _print_verdict(number: int, answer: str) -> None:
-    names = [each.name for each in FAULTS]
-    if answer not in names:
-        fail(f"{answer!r} is not the name of a fault", f"Faults: {', '.join(sorted(names))}.", code=2)
-    fault = FAULTS[number - 1]
-    if answer != fault.name:
+    given, fault = named_fault(answer), FAULTS[number - 1]
+    if given is None:
+        names = ", ".join(sorted(each.name for each in FAULTS))
+        fail(f"{answer!r} does not name one fault", f"Faults: {names}.", code=2)
+    if given is not fault:
         fail("The answer is wrong.", "Start the system again, and run coframe doctor in a second terminal.")
     print(f"Right: {fault.explanation}")
-
-
-def _check_class(
-    folder: Path, output: Path | None, jobs: int, variant: int | None, only: tuple[str, ...], *, as_json: bool
-) -> None:
-    """Grade the folders of a class, print a table or all reports, and write the table as CSV."""
-    folders = submissions(folder)
-    reports: dict[str, dict[str, Any]] = {}
-    with (
-        item_progress("checking", len(folders)) as progress,
-        closing(check_class(folders, jobs=jobs, variant=variant, only=only)) as results,
-    ):
-        for name, result in results:
-            reports[name] = result if isinstance(result, dict) else formats.ungraded_report(name, str(result))
-            progress(len(reports))
-    rows = [formats.csv_row(name, reports[name]) for name in sorted(reports)]
-    columns = list(dict.fromkeys(column for row in rows for column in row if column != "problem"))
-    if output is not None:
-        with complete_or_absent(output) as part, _open_table(part) as file:
-            writer = csv.DictWriter(file, [*columns, "problem"], restval=0.0)
-            writer.writeheader()
-            writer.writerows({key: csv_cell(value) for key, value in row.items()} for row in rows)
-    if as_json:
-        print(json.dumps({name: reports[name] for name in sorted(reports)}, indent=2))
-    else:
-        _print_table(rows, columns)
-
-
-def _open_table(path: Path) -> TextIO:
-    """Open a file for a table; names of submissions may contain invalid UTF-8."""
-    return path.open("w", encoding="utf-8", newline="", errors="backslashreplace")
-
-
-def _print_table(rows: Sequence[dict[str, Any]], columns: Sequence[str]) -> None:
-    from rich.table import Table  # noqa: PLC0415 - only for this table
-
-    table = Table(box=None, pad_edge=False, header_style="dim")
-    for column in columns:
-        table.add_column(column, justify="left" if column == "submission" else "right")
-    for row in rows:
-        cells = (row.get(column, 0.0) for column in columns)
-        table.add_row(*("" if cell is None else printable(str(cell)) for cell in cells))
-    report_console().print(table)

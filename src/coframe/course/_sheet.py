@@ -126,11 +126,17 @@ class Sheet:
         for fact in self.facts[first:]:
             fact.earned, fact.observed, fact.cause = 0.0, observed, ""
 
-    def set_cause(self, first: int, cause: str) -> None:
-        """Set the cause of all lost points from fact index `first` on whose own cause is not known."""
+    def set_cause(self, first: int, cause: str, *, replace: bool = False) -> None:
+        """Set the cause of all lost points from fact index `first` on.
+
+        Args:
+            first: The index of the first fact.
+            cause: The cause.
+            replace: Whether to replace causes that are known for single facts.
+        """
         for fact in self.facts[first:]:
-            if fact.earned < fact.points:
-                fact.cause = fact.cause or cause
+            if fact.earned < fact.points and (replace or not fact.cause):
+                fact.cause = cause
 
     @property
     def points(self) -> float:

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import json
-import os
 import signal
 import subprocess
 import threading
@@ -17,18 +16,21 @@ from coframe._files.temporary_folders import temporary_folder
 from coframe._process.python_children import python_command
 from coframe.course._sheet import GradeReport, Sheet
 from coframe.course._view import private_folders
-from coframe.course.folders import file_names
 from coframe.course.isolation import isolated_command, isolated_environment, isolation_problem
 from coframe.course.rubric import CRITERIA, RUBRIC
 from coframe.errors import CourseError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator, Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
+    from concurrent.futures import Future
 
-__all__ = ["MAX_SECONDS", "check_class", "check_folder", "submissions"]
+    from coframe.course.class_folder import Submission
 
-MAX_SECONDS = 400.0  # real time for one folder; nine programs that never respond need about half of it
-_MAX_FOLDERS = 200  # maximum number of files in a folder among which the files of the lab are searched
+__all__ = ["MAX_SECONDS", "check_class", "check_folder"]
+
+# Real time for one folder. On a loaded machine, nine programs that never respond need less, so that this limit does not
+# decide about points.
+MAX_SECONDS = 1200.0
 _PERIOD = 0.05  # seconds between two progress checks
 _EXIT_TIMEOUT = 5.0  # seconds between the end of the output of a grade and that of its process
 _KILLED = 9  # SIGKILL, which Windows does not have
@@ -133,85 +135,56 @@ def _report(folder: Path, results: _Results, missing: Sequence[str], reason: str
     return GradeReport(str(folder.resolve()), results.variant, sheets, notices).as_dict()
 
 
-def submissions(folder: Path) -> dict[str, Path]:
-    """Return the submissions of a class: the name of each folder in `folder`, and the location of its lab files.
-
-    A folder without such files is also a submission. Hidden folders, and those that macOS adds to archives, are not. A
-    symbolic link to a folder is a submission that cannot be graded, because it may point to files of someone else.
-
-    Raises:
-        CourseError: There is none.
-    """
-    students = [path for path in sorted(folder.glob("*/")) if path.is_dir() and not path.name.startswith((".", "__"))]
-    if not students:
-        raise CourseError(
-            f"No submissions in {folder}.",
-            hint="The folder must contain a folder for each student, with the student's files.",
-        )
-    return {student.name: student if student.is_symlink() else _find_lab_folder(student) for student in students}
-
-
-def _find_lab_folder(student: Path) -> Path:
-    """Return the folder with the most lab files, at most two levels below the folder of a student.
-
-    Links to folders are not followed, and links do not count as lab files.
-    """
-    names = file_names()
-    candidates = [student, *_folders_in(student)]
-    candidates += [below for folder in candidates[1:] for below in _folders_in(folder)]
-    return max(candidates, key=lambda folder: sum(_is_own_file(folder / name) for name in names))
-
-
-def _folders_in(folder: Path) -> list[Path]:
-    """Return the folders in a folder of a student, without links; none if it cannot be read."""
-    try:
-        with os.scandir(folder) as entries:
-            found = [entry.path for entry in entries if entry.is_dir(follow_symlinks=False)]
-    except OSError:
-        return []
-    return [Path(path) for path in sorted(found)[:_MAX_FOLDERS]]
-
-
-def _is_own_file(path: Path) -> bool:
-    return path.is_file() and not path.is_symlink()
-
-
 def check_class(
-    folders: Mapping[str, Path], *, jobs: int = 2, variant: int | None = None, only: tuple[str, ...] = CRITERIA
-) -> Generator[tuple[str, dict[str, Any] | CourseError], None, None]:
-    """Grade several folders at the same time.
+    students: Mapping[str, Submission],
+    done: Callable[[str, dict[str, Any] | CourseError, bool], object],
+    *,
+    jobs: int = 2,
+    variants: Mapping[str, int | None] | None = None,
+    only: tuple[str, ...] = CRITERIA,
+) -> None:
+    """Grade several submissions at the same time.
+
+    If it is interrupted, for example by Ctrl-C, the running grades are ended, and their completed criteria are also
+    results.
 
     Args:
-        folders: The folders by submission name.
-        jobs: Number of folders to grade in parallel.
-        variant: The variant of all assignments. None for the one in each folder.
+        students: The submissions by name.
+        done: Called in this thread with the name of each submission, its report or the error that prevented it, and
+            whether the grade is complete, in order of completion.
+        jobs: Number of submissions to grade in parallel.
+        variants: The variant of each submission. None, or no entry, for that in its folder.
         only: The criteria to check.
-
-    Yields:
-        The name of each submission with its report, or with the error that prevented it, in order of completion.
     """
 
     def check(number: int) -> dict[str, Any]:
-        name, folder = list(folders.items())[number]
-        if folder.is_symlink():
-            raise CourseError(
-                f"{name} is a link to another folder. Links of submissions are not followed.",
-                hint="Replace it with a copy of that folder, if it belongs to this student.",
-            )
-        return check_folder(folder, variant=variant, only=only, number=number, cancelled=cancelled)
+        name, submission = list(students.items())[number]
+        if submission.problem:
+            raise CourseError(submission.problem)
+        variant = None if variants is None else variants.get(name)
+        return check_folder(submission.folder, variant=variant, only=only, number=number, cancelled=cancelled)
+
+    def report(future: Future[dict[str, Any]], *, is_complete: bool) -> None:
+        error = future.exception()
+        if error is not None and not isinstance(error, CourseError):
+            raise error
+        if is_complete or error is None:
+            done(running[future], future.result() if error is None else error, is_complete)
 
     cancelled = threading.Event()
-    with ThreadPoolExecutor(jobs) as pool:
-        running = {pool.submit(check, number): name for number, name in enumerate(folders)}
-        try:
-            for done in as_completed(running):
-                error = done.exception()
-                if error is not None and not isinstance(error, CourseError):
-                    raise error
-                yield running[done], done.result() if error is None else error
-        finally:  # Ctrl-C ends the running grades, and no more are started.
-            cancelled.set()
-            pool.shutdown(wait=False, cancel_futures=True)
+    pool = ThreadPoolExecutor(jobs)
+    running = {pool.submit(check, number): name for number, name in enumerate(students)}
+    reported = set()
+    try:
+        for future in as_completed(running):
+            reported.add(future)
+            report(future, is_complete=True)
+    finally:
+        cancelled.set()
+        pool.shutdown(wait=True, cancel_futures=True)
+        for future in running:
+            if future not in reported and not future.cancelled():
+                report(future, is_complete=False)
 
 
 def _capitalize(text: str) -> str:

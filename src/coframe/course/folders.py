@@ -3,19 +3,23 @@
 
 from __future__ import annotations
 
+import io
 import re
+import zipfile
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from coframe._files.complete_files import write_complete
+from coframe._files.temporary_folders import temporary_folder
 from coframe.course.assignment import ASSIGNMENT_FILE, assignment_file, assignment_of
 from coframe.errors import CourseError
 
 if TYPE_CHECKING:
     from coframe.course.assignment import Assignment
+    from coframe.course.roster import Roster
 
-__all__ = ["create_folder", "file_names"]
+__all__ = ["create_class", "create_folder", "file_names", "stub_text"]
 
 _TEMPLATES = Path(__file__).parent / "templates"
 _SUFFIX = ".in"
@@ -55,6 +59,51 @@ def create_folder(folder: Path, variant: int | None) -> list[Path]:
             f"Cannot write {error.filename or folder}: {error.strerror}.", hint="Choose another folder."
         ) from None
     return [folder / name for name in (*names, ASSIGNMENT_FILE)]
+
+
+def create_class(folder: Path, roster: Roster, *, as_zip: bool = False) -> list[Path]:
+    """Create a folder for each student of a class, with the student's variant, and return them.
+
+    Args:
+        folder: The folder of the class.
+        roster: The students.
+        as_zip: Whether to create a zip file for each student instead of a folder.
+
+    Raises:
+        CourseError: A folder or file already exists, or cannot be written.
+    """
+    places = [folder / (f"{each.key}.zip" if as_zip else each.key) for each in roster.students]
+    if existing := [place.name for place in places if place.exists()]:
+        raise CourseError(
+            f"{folder} already contains {', '.join(existing[:5])}.",
+            hint="Choose another folder: nothing is overwritten.",
+        )
+    for student, place in zip(roster.students, places, strict=True):
+        if not as_zip:
+            create_folder(place, student.variant)
+            continue
+        with temporary_folder("coframe-new-") as name:
+            files = create_folder(Path(name, "lab"), student.variant)
+            _write_zip(place, student.key, files)
+    return places
+
+
+def _write_zip(path: Path, folder: str, files: list[Path]) -> None:
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
+        for file in files:
+            archive.write(file, f"{folder}/{file.name}")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_complete(path, content.getvalue())
+    except OSError as error:
+        raise CourseError(f"Cannot write {path}: {error.strerror}.", hint="Choose another folder.") from None
+
+
+def stub_text(name: str) -> str:
+    """Return the text of a file of the lab, with the lab's own numbers."""
+    text = (_TEMPLATES / f"{name}{_SUFFIX}").read_text(encoding="utf-8")
+    return _fill_template(text, assignment_of(None))
 
 
 def file_names() -> list[str]:

@@ -11,7 +11,7 @@ from coframe.course.submitted import MISSING_FILE
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["classroom", "csv_row", "gradescope", "text", "ungraded_report"]
+__all__ = ["classroom", "csv_row", "gradescope", "is_skipped", "text", "total_line", "ungraded_report"]
 
 _WIDTH = 100
 _FOLDER = "Folder"  # represents all criteria of a folder that could not be graded
@@ -20,7 +20,7 @@ _FOLDER = "Folder"  # represents all criteria of a folder that could not be grad
 def text(report: dict[str, Any]) -> Iterator[str]:
     """Yield the lines of a report for a terminal: each criterion with its facts, and the reasons for lost points."""
     for criterion in report["criteria"]:
-        if _is_skipped(criterion):
+        if is_skipped(criterion):
             continue
         bonus = " bonus" if criterion["bonus"] else ""
         yield f"{criterion['name']} ({criterion['file']}): {_points_text(criterion)}{bonus}"
@@ -30,27 +30,26 @@ def text(report: dict[str, Any]) -> Iterator[str]:
         for fact in criterion["facts"]:
             lost = fact["earned"] < fact["points"]
             yield f"  {'-' if lost else '+'} {_points_text(fact)}  {fact['name']}"
-            if lost and fact["observed"] not in criterion["problem"]:  # The problem above explains the others.
+            if lost and not _is_explained(criterion, fact):
                 yield from _indent(fact["expected"], "        expected: ")
                 yield from _indent(fact["observed"], "        observed: ")
-            if lost and not _is_explained(criterion, fact):
                 yield from _indent(fact["cause"], "        likely cause: ")
                 yield from _indent(fact["read"], "        read: ")
         yield ""
     yield from report["notices"]
-    yield _total_line(report)
+    yield total_line(report)
 
 
 def _is_explained(criterion: dict[str, Any], fact: dict[str, Any]) -> bool:
-    """Return whether the cause of lost points is written above the facts, or above this one."""
-    facts = criterion["facts"]
-    same = next(each for each in facts if each["cause"] == fact["cause"] and each["earned"] < each["points"])
-    withdrawn = fact["observed"] in criterion["problem"]
-    return bool(withdrawn and (not fact["cause"] or same is not fact))
+    """Return whether the problem above the facts explains why this one lost points."""
+    problem = criterion["problem"].casefold()
+    if fact["cause"]:
+        return fact["cause"].casefold() in problem
+    return fact["observed"].casefold() in problem
 
 
-def _total_line(report: dict[str, Any]) -> str:
-    """Return the last line: the grade, or the points of a part of the check."""
+def total_line(report: dict[str, Any]) -> str:
+    """Return the last line of a report: the grade, or the points of a part of the check."""
     points, bonus_points = (
         sum(each["points"] for each in report["criteria"] if each["bonus"] is bonus) for bonus in (False, True)
     )
@@ -62,7 +61,7 @@ def _total_line(report: dict[str, Any]) -> str:
     return f"Points in this part of the check: {' + '.join(parts)}. The grade requires all parts."
 
 
-def _is_skipped(criterion: dict[str, Any]) -> bool:
+def is_skipped(criterion: dict[str, Any]) -> bool:
     """Return whether a criterion is an extension that the student has not attempted."""
     return bool(criterion["bonus"]) and criterion["problem"].startswith(MISSING_FILE)
 
@@ -117,7 +116,9 @@ def classroom(report: dict[str, Any]) -> dict[str, Any]:
         {
             "name": f"{criterion['name']}: {fact['name']}",
             "status": "pass" if fact["earned"] == fact["points"] else "fail",
+            "line_no": 0,  # The reporter prints "line undefined" without it.
             "message": _explanation(criterion, fact),
+            "test_code": _explanation(criterion, fact),  # The reporter prints only this for a failed test.
             "score": fact["earned"],
             "max_score": 0 if criterion["bonus"] else fact["points"],
             "filename": criterion["file"],
@@ -131,13 +132,13 @@ def classroom(report: dict[str, Any]) -> dict[str, Any]:
 def _graded_facts(report: dict[str, Any]) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
     """Yield each fact with its criterion, without extensions that the student has not attempted."""
     for criterion in report["criteria"]:
-        if not _is_skipped(criterion):
+        if not is_skipped(criterion):
             yield from ((criterion, fact) for fact in criterion["facts"])
 
 
 def csv_row(submission: str, report: dict[str, Any]) -> dict[str, Any]:
     """Return the row of a submission in the table of grades: variant, total, each criterion, first problem."""
-    problems = [each["problem"] for each in report["criteria"] if each["problem"] and not _is_skipped(each)]
+    problems = [each["problem"] for each in report["criteria"] if each["problem"] and not is_skipped(each)]
     return {
         "submission": submission,
         "variant": report["variant"],

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from coframe.course._notebooks import notebook
 from coframe.errors import CourseError
 
-__all__ = ["Chapter", "chapters", "contents", "terminal_text", "write_pages"]
+__all__ = ["Chapter", "chapter_figure", "chapters", "contents", "terminal_text", "write_pages"]
 
 _NOTEBOOKS = "notebooks"
 _CONTENTS = "README.md"
@@ -70,6 +70,15 @@ def chapters() -> list[Chapter]:
         number, _, title = file.read_text(encoding="utf-8").partition("\n")[0].removeprefix("# ").partition(" ")
         found.append(Chapter(int(number), title, file))
     return found
+
+
+def chapter_figure(number: int) -> str:
+    """Return the figure of a chapter as SVG to be embedded in a page, or "" if there is none."""
+    for chapter in chapters():
+        figure = chapter.file.with_suffix(".svg")
+        if chapter.number == number and figure.is_file():
+            return re.sub(r"^<\?xml[^>]*\?>\s*", "", figure.read_text(encoding="utf-8"))
+    return ""
 
 
 def terminal_text(file: Path) -> str:

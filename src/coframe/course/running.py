@@ -22,11 +22,11 @@ if TYPE_CHECKING:
 __all__ = [
     "COMPLETE_TREE_FILES",
     "NODE_FILES",
-    "SIMULATION",
     "NamedCommand",
     "module_program",
     "programs_of",
     "running",
+    "simulation",
 ]
 
 NODE_FILES = ("static_tf_broadcaster.py", "dynamic_tf_broadcaster.py", "tf_listener.py", "sensor_transform.py")
@@ -46,15 +46,27 @@ def module_program(name: str, module: str, *arguments: str) -> NamedCommand:
     return NamedCommand(name, tuple(python_command(module, *arguments)))
 
 
-# Simulates the robot: moving joints and a lidar. Their names differ from those of a student's nodes.
-SIMULATION = (
-    module_program(
-        "simulated joints",
-        "coframe.lab.dynamic_tf_broadcaster",
-        *("--ros-args", "-r", "__node:=simulated_joints", "-p", "publish_joint_states:=true"),
-    ),
-    module_program("simulated lidar", "coframe.lab.simulated_lidar", "--ros-args", "-p", "fixed_frame:=base_link"),
+_LIDAR = ("--ros-args", "-p", "fixed_frame:=base_link")
+_JOINTS = module_program("simulated joints", "coframe.course._simulated_joints")
+# Only the mount of the gripper, on which the lidar is then mounted.
+_GRIPPER = module_program(
+    "gripper",
+    "coframe.lab.complete_tf_tree",
+    *("--ros-args", "-r", "__node:=gripper", "-p", "publish_world:=false", "-p", "publish_base:=false"),
+    *("-p", "publish_arm:=false", "-p", "publish_mounts:=false"),
 )
+
+
+def simulation(*, joints: bool = False, gripper: bool = False) -> list[NamedCommand]:
+    """Return the programs that simulate the robot: a lidar, and if wanted the joint states.
+
+    Args:
+        joints: Whether joint states are published. Without them, the arm of the student's node simulates its motion.
+        gripper: Whether the lidar is mounted on the moving gripper instead of the base.
+    """
+    frame = ("-p", "frame:=gripper_link") if gripper else ()
+    lidar = module_program("simulated lidar", "coframe.lab.simulated_lidar", *_LIDAR, *frame)
+    return [*([_JOINTS] if joints else []), *([_GRIPPER] if gripper else []), lidar]
 
 
 def programs_of(folder: Path, names: Sequence[str]) -> list[NamedCommand]:

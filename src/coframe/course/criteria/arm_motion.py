@@ -37,6 +37,7 @@ _STEP = 0.002  # seconds between two possible start times
 _BEFORE_FIRST, _AFTER_FIRST, _AROUND_ZERO = 1.0, 0.02, 0.02
 _AMPLITUDES, _FREQUENCIES, _PHASES = (0.5, 0.3), (0.2, 0.3), (0.0, np.pi / 4)
 _TWO_PI = 2.0 * np.pi
+_MIN_SAMPLES = 2  # after the first one
 
 
 def specified_angle(joint: int, seconds: Array) -> Array:
@@ -79,10 +80,8 @@ _FORMULAS = (
         "the quaternion is in the order w, x, y, z; ROS uses x, y, z, w", lambda q: np.roll(_about_z(q), 1, axis=-1)
     ),
     Formula("sine and cosine are exchanged: z = sin(q / 2), w = cos(q / 2)", lambda q: _about_z(q)[..., [0, 1, 3, 2]]),
-    *(
-        Formula(f"the rotation is about {axis} instead of z", lambda q, order=order: _about_z(q)[..., order])
-        for axis, order in (("x", [2, 1, 0, 3]), ("y", [0, 2, 1, 3]))
-    ),
+    Formula("the rotation is about x instead of z", lambda q: _about_z(q)[..., [2, 1, 0, 3]]),
+    Formula("the rotation is about y instead of z", lambda q: _about_z(q)[..., [0, 2, 1, 3]]),
 )
 
 
@@ -199,7 +198,7 @@ class _Trial(NamedTuple):
 
 def _find_trial(joint: int, samples: JointSamples, period: float) -> _Trial | None:
     """Return the first trial that explains the samples of a joint, or None if there is none."""
-    if len(samples.times) < 3:
+    if len(samples.times) < _MIN_SAMPLES:
         return None
     for law in _LAWS:
         for formula in _FORMULAS:

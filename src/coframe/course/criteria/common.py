@@ -111,10 +111,10 @@ def run_program(
     elif silence and not problem:
         sheet.withdraw(first, silence)
         sheet.set_cause(first, cause)
-    elif problem:
-        sheet.set_cause(first, _as_cause(problem))
-    elif cause:
-        sheet.set_cause(first, cause)
+    elif program.violation or cause == BLOCKED:  # What was observed has this cause, whatever else would explain it.
+        sheet.set_cause(first, _as_cause(program.violation) or cause, replace=True)
+    else:
+        sheet.set_cause(first, _as_cause(problem) or cause)
 
 
 def _as_cause(problem: str) -> str:

@@ -39,7 +39,8 @@ _TOPIC = "/joint_states"
 _JOINT_STATE_PERIOD = 2 * STEP
 _MAX_AGE = 10 * STEP  # of the joint state that the arm follows
 _PAUSE = 0.13  # seconds by which the timer of the program is late once
-_SLOW_STEP, _SLOW_STEPS = 1.0, 60  # seconds; the clock runs faster if the program has published almost nothing
+_MIN_SETS = 3
+_SLOW_STEP, _SLOW_STEPS = 1.0, 100  # seconds; the clock runs faster if the program has published almost nothing
 _REAL_SECONDS, _REAL_SETS = 2.0, 3  # for the stamps with the clock of the system
 _STATIC_BROADCASTER = (
     "StaticTransformBroadcaster sends on /tf_static, where each message replaces the past: use TransformBroadcaster"
@@ -101,14 +102,19 @@ def _run(world: World, program: StudentProgram) -> _Published:
     world.jump(_PAUSE)
     world.run(2.5)
     for _ in range(_SLOW_STEPS):
-        if len(received()) > 2:
+        if len(received()) > _MIN_SETS * len(_EDGES):
             break
         world.jump(_SLOW_STEP)
     simulated = list(received())
     in_order, swapped = during(0.6, _JOINTS), during(0.6, _JOINTS[::-1])
     subscriptions = world.subscribed_topics("sensor_msgs/msg/JointState")
     first = len(received())
-    world.use_system_time(_REAL_SECONDS, lambda: len(received()) >= first + _REAL_SETS * len(_EDGES))
+
+    def has_enough() -> bool:
+        _publish_joint_states(world, world.now - world.now % _JOINT_STATE_PERIOD, _JOINTS)
+        return len(received()) >= first + _REAL_SETS * len(_EDGES)
+
+    world.use_system_time(_REAL_SECONDS, has_enough)
     topic = "/tf" if volatile or stored else "/tf_static"
     return _Published(simulated, in_order, swapped, received()[first:], topic, subscriptions)
 

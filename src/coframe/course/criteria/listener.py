@@ -47,7 +47,7 @@ _NOW = (
     "the lookup asks for the current time, self.get_clock().now(), whose transform has not arrived yet: "
     "ask for Time(), the latest one"
 )
-_COMPUTED = "the pose is computed from the numbers of the assignment, not looked up: the arm of the check is mounted differently"
+_COMPUTED = "the pose is computed from the numbers of the assignment, not looked up: in the check, the arm is tilted"
 _SWAPPED = "target and source are swapped: lookup_transform('base_link', 'end_effector', ...)"
 _READ = "handbook chapter 4, what lookup_transform(target, source) means"
 _TIME_CHAPTER = "handbook chapter 5, time, interpolation, waiting"

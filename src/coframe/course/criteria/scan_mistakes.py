@@ -46,7 +46,7 @@ class SentScan(NamedTuple):
 def ranges_and_angles(scan: LaserScan) -> tuple[Array, Array]:
     """Return the ranges and the angles of all beams."""
     ranges = np.array(scan.ranges, dtype=np.float64)
-    return ranges, scan.angle_min + scan.angle_increment * np.arange(len(ranges))
+    return ranges, np.asarray(scan.angle_min + scan.angle_increment * np.arange(len(ranges)), dtype=np.float64)
 
 
 def valid_beams(scan: LaserScan) -> NDArray[np.bool_]:

@@ -35,7 +35,7 @@ _RANGE_MIN, _RANGE_MAX = 0.1, 10.0
 _SCAN_PERIOD = 10 * STEP
 _SCANS = 15  # in each of the two frames
 _TOLERANCE = 1e-3  # meters
-_MEASURED = STEP  # age of a scan and of a transform when they are published, as on a robot
+_MEASURED = STEP // 2  # age of a scan and its transform when they are published; no value of the clock is such a stamp
 # Seconds of real time from a scan to the transform of its stamp. On a robot, this is usually 10 to 50 ms.
 _TRANSFORM_DELAY = 0.03
 _MIN_RESPONSES = 0.25  # share of the waits in which a node with several threads responds; one with a single one: none
@@ -105,7 +105,9 @@ def check(task: Task) -> Sheet:
             scan = _scan(robot, now - _MEASURED, frame)
             scans.sent[now - _MEASURED] = scan
             world.publish("/scan", scan.message)
-            scans.responses.append(world.responds(_TRANSFORM_DELAY))
+            responded = world.responds(_TRANSFORM_DELAY)
+            if frame == _GRIPPER:  # A scan on the base needs no transform that arrives later.
+                scans.responses.append(responded)
         publish_arm(now)
 
     def silence_cause(output: str) -> str:

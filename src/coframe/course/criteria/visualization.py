@@ -171,15 +171,16 @@ def _check_tree(sheet: Sheet, task: Task, received: list[Received]) -> None:
         parents.setdefault(child, []).append(parent)
     double = {child: found for child, found in parents.items() if len(found) > 1}
     trees = FrameTrees.from_parents({child: found[0] for child, found in parents.items()})
+    roots = [trees.names[number] for number in trees.roots]
     sheet.check(
         2,
         "every frame has exactly one parent, in one tree",
-        bool(pairs) and not double and len(trees.roots) == 1,
+        bool(pairs) and not double and len(roots) == 1,
         expected="a single tree with the root world",
         observed="no transforms"
         if not pairs
         else "; ".join(f"{child} has the parents {' and '.join(found)}" for child, found in double.items())
-        or f"{len(trees.roots)} trees, with the roots {', '.join(sorted(trees.roots))}",
+        or f"{len(roots)} trees, with the roots {', '.join(sorted(roots))}",
         cause="two transforms have the same child_frame_id" if double else next(filter(None, causes), ""),
         read=_READ,
     )

@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Write complete packages that grade submissions elsewhere: Gradescope, GitHub Classroom, and a Docker image."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import zipfile
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from coframe._files.complete_files import write_complete
+from coframe.errors import CourseError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["PLATFORMS", "write_autograder"]
+
+_WHEEL = re.compile(r"coframe-(?P<version>[^-]+)(-\d[^-]*)?-(?P<python>[^-]+)-(?P<abi>[^-]+)-(?P<platform>[^-]+)\.whl")
+_DEFAULT_PYTHON = "3.12"  # for a wheel of any version
+_EXTRAS = "all"
+_GRADESCOPE_ARCHIVE = "autograder.zip"
+_EXECUTABLE = 0o755
+
+_SETUP = """#!/usr/bin/env bash
+# Gradescope runs this once, when the image of the autograder is built.
+set -euo pipefail
+export DEBIAN_FRONTEND=noninteractive
+apt-get update
+if ! apt-get install -y python{python} python{python}-venv; then
+    apt-get install -y software-properties-common
+    add-apt-repository -y ppa:deadsnakes/ppa
+    apt-get update
+    apt-get install -y python{python} python{python}-venv
+fi
+python{python} -m venv /opt/lab
+/opt/lab/bin/python -m pip install "/autograder/source/{wheel}[{extras}]"
+"""
+_RUN = """#!/usr/bin/env bash
+# Gradescope runs this for each submission.
+set -euo pipefail
+mkdir -p /autograder/results
+/opt/lab/bin/coframe lab check /autograder/submission{variant} --gradescope /autograder/results/results.json
+"""
+_WORKFLOW = """name: Autograding
+on: [push, workflow_dispatch, repository_dispatch]
+permissions:
+  checks: write
+  actions: read
+  contents: read
+jobs:
+  lab:
+    runs-on: ubuntu-latest
+    if: github.actor != 'github-classroom[bot]'
+    timeout-minutes: 30
+    steps:
+      - uses: actions/checkout@v4
+      - uses: actions/setup-python@v5
+        with:
+          python-version: "{python}"
+      - name: Install coframe
+        run: python -m pip install ".github/classroom/{wheel}[{extras}]"
+      - name: Check the lab
+        id: lab
+        run: |
+          cd "$RUNNER_TEMP"
+          coframe lab check "$GITHUB_WORKSPACE"{variant} --classroom result.json
+          echo "result=$(base64 --wrap=0 result.json)" >> "$GITHUB_OUTPUT"
+      - name: Report the result
+        uses: classroom-resources/autograding-grading-reporter@v1
+        env:
+          LAB_RESULTS: ${{{{ steps.lab.outputs.result }}}}
+        with:
+          runners: lab
+"""
+_DOCKERFILE = """# Grades a class: docker build -t lab . && docker run --rm --network none \\
+#   --security-opt seccomp=unconfined -v "$PWD/submissions:/class:ro" -v "$PWD/grades:/grades" lab
+# Programs of students need namespaces of their own, which Docker's default profile forbids (seccomp=unconfined allows
+# them). Without them, the report says what is not protected.
+FROM python:{python}-slim
+COPY {wheel} /tmp/
+RUN python -m pip install --no-cache-dir "/tmp/{wheel}[{extras}]" && rm /tmp/{wheel} \\
+    && useradd --create-home grader && mkdir /class /grades && chown grader /grades
+USER grader
+WORKDIR /grades
+ENTRYPOINT ["coframe", "lab", "check", "--all", "/class", "-o", "/grades/grades.csv", "--resume"{variant}]
+"""
+
+
+class _Plan(NamedTuple):
+    """What the files of a package contain.
+
+    Attributes:
+        wheel: The wheel.
+        python: The version of Python for which the wheel is built, such as "3.12".
+        variant: The seed of the variant of all submissions, or None for that in each folder.
+    """
+
+    wheel: Path
+    python: str
+    variant: int | None
+
+    def fill(self, template: str, *, as_list: bool = False) -> str:
+        """Return a template with the values."""
+        option = "" if self.variant is None else f"--variant={self.variant}"
+        words = f', "{option}"' if as_list and option else f" {option}" if option else ""
+        return template.format(wheel=self.wheel.name, python=self.python, extras=_EXTRAS, variant=words)
+
+
+def write_autograder(platform: str, folder: Path, wheel: Path, variant: int | None = None) -> list[Path]:
+    """Write the package for a platform, and return its files; the first one is what the teacher uses.
+
+    Args:
+        platform: One of PLATFORMS.
+        folder: The folder for the files.
+        wheel: A wheel of coframe, which the package installs.
+        variant: The variant of all submissions. None for that in each folder.
+
+    Raises:
+        CourseError: The wheel is not one of coframe, or a file exists already or cannot be written.
+    """
+    plan = _Plan(wheel, _python_of(wheel), variant)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        return PLATFORMS[platform](plan, folder)
+    except OSError as error:
+        raise CourseError(
+            f"Cannot write {error.filename or folder}: {error.strerror}.", hint="Choose another folder."
+        ) from None
+
+
+def _python_of(wheel: Path) -> str:
+    """Return the version of Python that a wheel needs."""
+    match = _WHEEL.fullmatch(wheel.name)
+    if match is None or not zipfile.is_zipfile(wheel):
+        raise CourseError(
+            f"{wheel} is not a wheel of coframe.",
+            hint="Build one: python -m pip wheel --no-deps -w dist .",
+        )
+    if not any(word in match["platform"] for word in ("linux", "any")):
+        raise CourseError(
+            f"{wheel.name} is for {match['platform']}, but the graders run Linux.", hint="Build the wheel on Linux."
+        )
+    version = re.fullmatch(r"cp(\d)(\d+)", match["python"])
+    return f"{version[1]}.{version[2]}" if version and match["abi"] != "abi3" else _DEFAULT_PYTHON
+
+
+def _write(path: Path, text: str, *, executable: bool = False) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if path.exists():
+        raise CourseError(f"{path} exists already.", hint="Choose another folder: nothing is overwritten.")
+    write_complete(path, text.encode())
+    if executable:
+        path.chmod(_EXECUTABLE)
+    return path
+
+
+def _copy_wheel(plan: _Plan, folder: Path) -> Path:
+    folder.mkdir(parents=True, exist_ok=True)
+    return Path(shutil.copyfile(plan.wheel, folder / plan.wheel.name))
+
+
+def _write_gradescope(plan: _Plan, folder: Path) -> list[Path]:
+    """Write a zip file with the names that Gradescope expects; its entries are executable."""
+    archive = folder / _GRADESCOPE_ARCHIVE
+    if archive.exists():
+        raise CourseError(f"{archive} exists already.", hint="Choose another folder: nothing is overwritten.")
+    with zipfile.ZipFile(archive, "x", zipfile.ZIP_DEFLATED) as file:
+        for name, template in (("setup.sh", _SETUP), ("run_autograder", _RUN)):
+            entry = zipfile.ZipInfo(name, date_time=(2020, 1, 1, 0, 0, 0))
+            entry.external_attr = (0o100000 | _EXECUTABLE) << 16
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            file.writestr(entry, plan.fill(template))
+        file.write(plan.wheel, plan.wheel.name)
+    return [archive]
+
+
+def _write_classroom(plan: _Plan, folder: Path) -> list[Path]:
+    """Write the files for the repository from which GitHub Classroom creates those of the students."""
+    workflow = _write(folder / ".github" / "workflows" / "classroom.yml", plan.fill(_WORKFLOW))
+    return [workflow, _copy_wheel(plan, folder / ".github" / "classroom")]
+
+
+def _write_docker(plan: _Plan, folder: Path) -> list[Path]:
+    return [_write(folder / "Dockerfile", plan.fill(_DOCKERFILE, as_list=True)), _copy_wheel(plan, folder)]
+
+
+PLATFORMS: dict[str, Callable[[_Plan, Path], list[Path]]] = {
+    "gradescope": _write_gradescope,
+    "classroom": _write_classroom,
+    "docker": _write_docker,
+}
