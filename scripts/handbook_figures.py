@@ -53,6 +53,12 @@ class Drawing:
         """Draw a filled circle."""
         self.parts.append(f'<circle cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="{radius:g}" fill="{color}"/>')
 
+    def cross(self, at: Point, color: str = BLACK, radius: float = 5) -> None:
+        """Draw a cross, which differs from a dot also without color."""
+        for sign in (1, -1):
+            ends = [(at[0] - radius, at[1] - sign * radius), (at[0] + radius, at[1] + sign * radius)]
+            self.line(ends, color, 2.5)
+
     def area(self, x: float, y: float, width: float, height: float, color: str) -> None:
         """Draw a pale rectangle from its upper left corner."""
         self.parts.append(
@@ -217,14 +223,15 @@ def sensors() -> Drawing:
         return 60 + 200 * float(position[0]), 180 - 100 * float(position[1])
 
     drawing.line([pixel([2.5, -1.1]), pixel([2.5, 1.1])], GRAY, 7)
-    for points_base, color in ((right @ points, GREEN), (late @ points, RED)):
-        for position in points_base:
-            drawing.dot(pixel(position), color, 4.5)
+    for position in right @ points:
+        drawing.dot(pixel(position), BLUE, 4.5)
+    for position in late @ points:
+        drawing.cross(pixel(position), ORANGE)
     drawing.axes(pixel([0, 0]), 0.0, "base_link", 40)
     drawing.line([pixel([0, 0]), pixel(right.translation)], BLACK, 3)
     drawing.axes(pixel(right.translation), 0.0, "lidar on the gripper", 40)
-    drawing.text((20, 30), "at the stamp of the scan: the points are on the wall", GREEN)
-    drawing.text((20, 50), "latest transform, 0.1 s later: the wall is turned", RED)
+    drawing.text((20, 30), "at the stamp of the scan: the points (dots) are on the wall", BLUE)
+    drawing.text((20, 50), "latest transform, 0.1 s later: the wall (crosses) is turned", ORANGE)
     return drawing
 
 
@@ -304,14 +311,41 @@ def finding_errors() -> Drawing:
             curve.append((60 + 5.5 * k, 110 - 320 * length * math.sin(q1)))
         both.append(curves[k % 2][-1])
     drawing.arrow((60, 200), (620, 200), GRAY, 1.5)
-    drawing.line(both, RED, 1.5)
-    for curve, color in zip(curves, (BLUE, GREEN), strict=True):
-        drawing.line(curve, color, 2, dashed=True)
-    drawing.text((300, 30), "dynamic_tf_broadcaster", BLUE)
-    drawing.text((300, 50), "arm_driver, with other lengths", GREEN)
-    drawing.text((300, 70), "what a listener receives", RED)
+    drawing.line(both, GRAY, 1.5)
+    drawing.line(curves[0], BLUE, 3)
+    drawing.line(curves[1], ORANGE, 3, dashed=True)
+    drawing.text((300, 30), "dynamic_tf_broadcaster (solid)", BLUE)
+    drawing.text((300, 50), "arm_driver, with other lengths (dashed)", ORANGE)
+    drawing.text((300, 70), "what a listener receives (zigzag)", GRAY)
     drawing.text((20, 20), "y of link2", GRAY)
     drawing.text((600, 215), "time", GRAY)
+    return drawing
+
+
+def motion_between_frames() -> Drawing:
+    drawing = Drawing(240)
+    base, sensor, center = (150, 170), (330, 80), (330, 170)
+    drawing.line([base, sensor], GRAY, 3)
+    drawing.axes(base, 0.0, "base_link", 45)
+    drawing.axes(sensor, 0.5, "sensor", 45)
+    drawing.arrow(base, (base[0] + 110, base[1]), BLUE, 3)
+    drawing.text((center[0] - 60, center[1] + 20), "v", BLUE)
+    drawing.arrow(sensor, (sensor[0] + 70, sensor[1] + 50), ORANGE, 3)
+    drawing.text((410, 150), "v + w x t: the same motion at the sensor", ORANGE)
+    drawing.text((20, 30), "one rigid body, one angular velocity w, two linear velocities")
+    drawing.text((225, 120), "t", GRAY)
+    return drawing
+
+
+def packages_and_launch() -> Drawing:
+    drawing = Drawing(200)
+    drawing.box((320, 40), "lab.launch.py", ORANGE)
+    for number, name in enumerate(("static_tf_broadcaster", "tf_listener", "sensor_transform")):
+        x = 120 + 200 * number
+        drawing.arrow((320, 54), (x, 96), ORANGE)
+        drawing.box((x, 110), name)
+    drawing.text((20, 165), "executables of the package my_lab_nodes: setup.py names module and function of each", BLUE)
+    drawing.text((20, 185), "one launch file starts them with their parameters", ORANGE)
     return drawing
 
 
@@ -326,6 +360,8 @@ FIGURES: dict[str, tuple[Callable[[], Drawing], str]] = {
     "08_urdf": (urdf, "Links and joints of a robot description"),
     "09_time_travel": (time_travel, "A lookup with two times and a fixed frame"),
     "10_finding_errors": (finding_errors, "Two publishers of one transform"),
+    "11_motion_between_frames": (motion_between_frames, "A velocity in two frames of one rigid body"),
+    "12_packages_and_launch": (packages_and_launch, "A package, its executables, and a launch file that starts them"),
 }
 
 

@@ -261,7 +261,7 @@ def test_the_handbook_is_printed_and_written_as_web_pages(tmp_path):
     assert "Static and dynamic transforms" in CliRunner().invoke(app, ["lab", "handbook", "3"]).output
     assert CliRunner().invoke(app, ["lab", "handbook", "-o", str(tmp_path)]).exit_code == 0
     pages = {path.name: path.read_text() for path in tmp_path.glob("*.html")}
-    assert len(pages) == 11
+    assert len(pages) == 13
     for text in pages.values():
         for address in re.findall(r'(?:href|src)="([^"#]+)', text):
             assert (tmp_path / address).is_file()
@@ -271,9 +271,9 @@ def test_the_handbook_is_printed_and_written_as_web_pages(tmp_path):
         {path.name: path.read_text() for path in folder.iterdir()} for folder in (tmp_path / "notebooks", committed)
     )
     assert notebooks == expected
-    missing = CliRunner().invoke(app, ["lab", "handbook", "11"])
+    missing = CliRunner().invoke(app, ["lab", "handbook", "13"])
     assert missing.exit_code == 2
-    assert "Chapters: 1 to 10." in missing.output
+    assert "Chapters: 1 to 12." in missing.output
 
 
 @pytest.mark.slow

@@ -47,7 +47,7 @@ MUTANTS = {
     "w first": (STATIC, [("(0.0, HALF, 0.0, HALF)", "(HALF, 0.0, HALF, 0.0)")], 17, "w, x, y, z"),
     "rounded": (STATIC, [("math.sqrt(0.5)", "0.707")], 19, "rounded"),
     "zeros": (STATIC, [("0.5), (0.0, 0.0, 0.0, 1.0)", "0.5), (0.0, 0.0, 0.0, 0.0)")], 17, "0, 0, 0, 0"),
-    "inverted rotation": (STATIC, [("(0.0, HALF, 0.0, HALF)", "(0.0, -HALF, 0.0, HALF)")], 17, "pitch"),
+    "inverted rotation": (STATIC, [("(0.0, HALF, 0.0, HALF)", "(0.0, -HALF, 0.0, HALF)")], 17, "is inverted"),
     "no rotation": (STATIC, [("        q.x, q.y, q.z, q.w = rotation\n", "")], 17, "rotation is missing"),
     "millimeters": (STATIC, [("(0.05, 0.0, 0.02)", "(50.0, 0.0, 20.0)")], 17, "millimeters"),
     "other number": (STATIC, [("0.0, 0.5), (0", "0.0, 0.6), (0")], 17, ""),

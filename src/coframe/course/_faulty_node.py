@@ -210,7 +210,7 @@ _FAULTS: dict[str, Callable[[Any], None]] = {
 
 def _change_transforms(change: Callable[[list[Any]], list[Any]], broadcaster: Any = None) -> None:
     """Modify the transforms sent by a broadcaster, by default by TransformBroadcaster."""
-    chosen = broadcaster or tf2_ros.TransformBroadcaster
+    chosen: Any = broadcaster or tf2_ros.TransformBroadcaster
     send = chosen.sendTransform
 
     def send_changed(self: Any, transform: Any) -> None:

@@ -271,13 +271,17 @@ class World:
             for client in clients:
                 self._node.destroy_client(client)
 
-    def responds(self, seconds: float) -> bool:
-        """Return whether the program responds to a request within a time in seconds, which is waited for in any case.
+    def responds(self, at_most: float, at_least: float = 0.0) -> bool:
+        """Return whether the program responds to requests, without advancing the clock.
 
         A program with a single thread does not respond while a callback waits.
+
+        Args:
+            at_most: The time limit in seconds, see Patience.
+            at_least: The minimum of real time to wait, in seconds.
         """
-        patience = FairTimeout(seconds, self._waiting_time)
-        deadline = time.monotonic() + seconds
+        patience = FairTimeout(at_most, self._waiting_time)
+        deadline = time.monotonic() + at_least
         answered = True
         for _ in range(2):  # The first response may come before a callback that is also ready, see `settle`.
             futures = [probe.call_async(_probe_request()) for probe in self._probes]

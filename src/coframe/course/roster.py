@@ -211,5 +211,12 @@ def _identities(student: Student) -> set[str]:
     """Return everything by which a submission may be named after a student."""
     words = student.name.replace(",", " ").split()
     names = {student.name, " ".join([*words[-1:], *words[:-1]]), " ".join([*words[1:], *words[:1]])}
-    names |= {student.key, student.email, student.email.partition("@")[0], student.number, student.login, student.participant}
+    names |= {
+        student.key,
+        student.email,
+        student.email.partition("@")[0],
+        student.number,
+        student.login,
+        student.participant,
+    }
     return {_letters(each) for each in names if each}
