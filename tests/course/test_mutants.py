@@ -90,7 +90,7 @@ MUTANTS = {
     "slow": (DYNAMIC, [("50.0", "5.0")], 22, "the period of the timer is 0.2 s"),
     "period in milliseconds": (DYNAMIC, [("1.0 / RATE", "20")], 22, "takes seconds"),
     "no stamp": (DYNAMIC, [("        t.header.stamp = stamp\n", "")], 23, "header.stamp is not set"),
-    "one stamp for ever": (
+    "one stamp only": (
         DYNAMIC,
         [(f"stamp = {NOW}", f"stamp = self.stamp = getattr(self, 'stamp', None) or {NOW}")],
         23,
@@ -154,7 +154,7 @@ MUTANTS = {
     # Step 4
     "latest transform": (SENSOR, [("header.frame_id, stamp", "header.frame_id, Time()")], 17, "latest transform"),
     "no waiting": (SENSOR, [(", timeout=Duration(seconds=0.2)", "")], 15, "does not wait"),
-    "one thread": (SENSOR, [(", executor=MultiThreadedExecutor()", "")], 19, "single thread"),
+    "one thread": (SENSOR, [(", executor=MultiThreadedExecutor()", "")], 15, "only thread"),
     "fixed frame name": (SENSOR, [("TARGET, header.frame_id", 'TARGET, "lidar_link"')], 17, "always 'lidar_link'"),
     "scan target for source": (SENSOR, [("TARGET, header.frame_id", "header.frame_id, TARGET")], 13, "swapped"),
     "cloud stamp is now": (SENSOR, [("stamp=header.stamp,", f"stamp={NOW},")], 17, "stamp is now()"),
@@ -248,7 +248,7 @@ COLLECTED = {
     "li_nolistener": (0, "TransformListener"), "se_latest": (17, "latest"), "se_notimeout": (15, "wait"),
     "se_hardframe": (17, "lidar_link"), "se_swapped": (13, "swapped"), "se_stampnow": (17, "now()"),
     "se_nofilter": (17, "dropped"), "se_nanfilter_only": (17, "only inf"), "se_anglesunfiltered": (13, "filtered"),
-    "se_RnotT": (13, "transpose"), "se_scanframe": (18, "copied"), "se_never": (0, ""), "se_single": (19, "thread"),
+    "se_RnotT": (13, "transpose"), "se_scanframe": (18, "copied"), "se_never": (0, ""), "se_single": (15, "thread"),
     "se_deg": (13, "degrees"), "se_float64": (20, ""), "co_wronglen": (13.43, ""), "co_inverted": (11.78, ""),
     "co_two_parents": (13, "child_frame_id"), "co_notmoving": (12, "advance"),
 }  # fmt: skip

@@ -124,7 +124,7 @@ def run(
     """Run the nodes of a folder with a simulated lidar, and show them in the viewer.
 
     The arm moves as step 2 simulates it. With --joints, it has to follow the joint states of the robot: if it jumps
-    between two poses, its simulation continues next to them. Each output line is prefixed with the name of its node. The
+    between two poses, its simulation continues next to them. Each output line has the name of its node. The
     viewer's findings show what is missing.
 
     Example: coframe lab run my_lab
@@ -334,10 +334,12 @@ def break_(
     help="Number of the chapter. [default: the table of contents]",
 )
 @click.option("--output", "-o", metavar="FOLDER", type=PATH, help="Write all chapters as web pages with images.")
+@click.option("--slides", is_flag=True, help="With -o: also write slides.html, a slide for each section.")
 @click.option("--browser/--no-browser", default=True, help="With -o: open the pages in the browser.")
 def handbook(
     chapter: int | None,
     output: Path | None,
+    slides: bool,
     browser: bool,
 ) -> None:
     """Print the table of contents or a chapter of the handbook, or write the handbook as web pages.
@@ -346,8 +348,10 @@ def handbook(
     """
     with run_to_completion():
         if output is not None:
-            _write_handbook(output, chapter, browser=browser)
+            _write_handbook(output, chapter, slides=slides, browser=browser)
             return
+        if slides:
+            fail("--slides writes a file", "Add -o FOLDER.", code=2)
         found = {each.number: each for each in chapters()}
         if chapter is not None and chapter not in found:
             fail(f"There is no chapter {chapter}", f"Chapters: 1 to {len(found)}.", code=2)
@@ -362,8 +366,8 @@ def handbook(
             )
 
 
-def _write_handbook(folder: Path, chapter: int | None, *, browser: bool) -> None:
-    first = write_pages(folder)
+def _write_handbook(folder: Path, chapter: int | None, *, slides: bool, browser: bool) -> None:
+    first = write_pages(folder, slides=slides)
     page = first if chapter is None else next(folder.glob(f"{chapter:02d}_*.html"), first)
     print(page.resolve())
     if browser and sys.stdout.isatty():

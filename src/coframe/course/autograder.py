@@ -118,7 +118,7 @@ def write_autograder(platform: str, folder: Path, wheel: Path, variant: int | No
         variant: The variant of all submissions. None for that in each folder.
 
     Raises:
-        CourseError: The wheel is not one of coframe, or a file exists already or cannot be written.
+        CourseError: The wheel is not one of coframe, or a file already exists or cannot be written.
     """
     plan = _Plan(wheel, _python_of(wheel), variant)
     try:
@@ -149,7 +149,7 @@ def _python_of(wheel: Path) -> str:
 def _write(path: Path, text: str, *, executable: bool = False) -> Path:
     path.parent.mkdir(parents=True, exist_ok=True)
     if path.exists():
-        raise CourseError(f"{path} exists already.", hint="Choose another folder: nothing is overwritten.")
+        raise CourseError(f"{path} already exists.", hint="Choose another folder: nothing is overwritten.")
     write_complete(path, text.encode())
     if executable:
         path.chmod(_EXECUTABLE)
@@ -165,7 +165,7 @@ def _write_gradescope(plan: _Plan, folder: Path) -> list[Path]:
     """Write a zip file with the names that Gradescope expects; its entries are executable."""
     archive = folder / _GRADESCOPE_ARCHIVE
     if archive.exists():
-        raise CourseError(f"{archive} exists already.", hint="Choose another folder: nothing is overwritten.")
+        raise CourseError(f"{archive} already exists.", hint="Choose another folder: nothing is overwritten.")
     with zipfile.ZipFile(archive, "x", zipfile.ZIP_DEFLATED) as file:
         for name, template in (("setup.sh", _SETUP), ("run_autograder", _RUN)):
             entry = zipfile.ZipInfo(name, date_time=(2020, 1, 1, 0, 0, 0))

@@ -82,7 +82,6 @@ _SYNONYMS = {
     "absent": "missing",
     "delayed": "late",
     "timestamp": "stamp",
-    "millimetre": "millimeter",
     "cyclic": "cycle",
 }
 

@@ -18,16 +18,43 @@ _NOTEBOOKS = "notebooks"
 _CONTENTS = "README.md"
 _LINK = re.compile(r"\[([^\]]*)\]\([^)]*\)")
 _EXTERNAL_LINK = re.compile(r"\[([^\]]*)\]\(\.\./[^)]*\)")  # links to documents that are not installed
+_NOT_SHOWN = re.compile(r"<!-- notebook:[\s\S]*?-->\n*|^(?:Next:|Back to the) .*$", re.MULTILINE)
 _PICTURE = re.compile(r"!\[([^\]]*)\]\([^)]*\)")
+_SLIDES = "slides.html"
+_STYLE = """
+:root { color-scheme: light dark; }
+body { font: 1rem/1.5 sans-serif; margin: 0; overflow-wrap: break-word; }
+pre, code { background: #8882; } pre { padding: 0.7rem; overflow-x: auto; }
+table { border-collapse: collapse; display: block; overflow-x: auto; }
+td, th { border: 1px solid #8888; padding: 0.2rem 0.5rem; vertical-align: top; }
+img { max-width: 100%; height: auto; background: white; }
+"""
+_PAGE_STYLE = """
+main { max-width: 50rem; margin: 1rem auto; padding: 0 1rem; }
+nav { padding: 0.5rem 1rem; border-bottom: 1px solid #8888; }
+nav summary { cursor: pointer; } nav ol { columns: 16rem; } nav a { display: inline-block; padding: 0.1rem 0; }
+nav [aria-current] { font-weight: bold; }
+"""
+_SLIDE_STYLE = """
+html { scroll-snap-type: y mandatory; }
+section { box-sizing: border-box; min-height: 100vh; padding: 4vh 6vw; scroll-snap-align: start; font-size: 1.3rem; }
+section img { max-height: 60vh; }
+@media print { section { break-after: page; min-height: 0; } }
+"""
+_KEYS = """<script>
+addEventListener("keydown", (event) => {
+  const step = { ArrowRight: 1, PageDown: 1, ArrowLeft: -1, PageUp: -1 }[event.key];
+  if (!step) return;
+  event.preventDefault();
+  const slides = [...document.querySelectorAll("section")];
+  const now = slides.findIndex((slide) => slide.getBoundingClientRect().bottom > innerHeight / 2);
+  slides[Math.max(0, Math.min(slides.length - 1, now + step))].scrollIntoView();
+});
+</script>"""
 _PAGE = """<!DOCTYPE html>
-<html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
 <title>{title}</title>
-<style>
-body {{ font: 1rem/1.5 sans-serif; max-width: 50rem; margin: 2rem auto; padding: 0 1rem; }}
-pre, code {{ background: #f2f2f2; }} pre {{ padding: 0.7rem; overflow-x: auto; }}
-table {{ border-collapse: collapse; }} td, th {{ border: 1px solid #bbb; padding: 0.2rem 0.5rem; vertical-align: top; }}
-img {{ max-width: 100%; background: white; }}
-</style>
+<style>{style}</style>
 <body>
 {body}</body></html>
 """
@@ -86,11 +113,12 @@ def terminal_text(file: Path) -> str:
     return _LINK.sub(r"\1", _PICTURE.sub(r"*Picture: \1*", file.read_text(encoding="utf-8")))
 
 
-def write_pages(folder: Path) -> Path:
-    """Write the handbook as web pages with images and notebooks, and return the contents page.
+def write_pages(folder: Path, *, slides: bool = False) -> Path:
+    """Write the handbook as web pages with a menu, images and notebooks, and return the contents page.
 
     Args:
         folder: The folder; existing files are replaced.
+        slides: Whether to write ``slides.html`` too: a slide for each section of a chapter.
 
     Raises:
         CourseError: The handbook is not installed, or a file cannot be written.
@@ -99,12 +127,14 @@ def write_pages(folder: Path) -> Path:
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for file in source.glob("*.md"):
-            _target(folder, file).write_text(_page(file.read_text(encoding="utf-8")), encoding="utf-8")
+            _target(folder, file).write_text(_page(file), encoding="utf-8")
         for picture in _find_images(source):
             shutil.copyfile(picture, folder / picture.name)
         (folder / _NOTEBOOKS).mkdir(exist_ok=True)
         for chapter in chapters():
             (folder / _NOTEBOOKS / f"{chapter.file.stem}.ipynb").write_text(notebook(chapter.file), encoding="utf-8")
+        if slides:
+            (folder / _SLIDES).write_text(_slides(), encoding="utf-8")
     except OSError as error:
         raise CourseError(
             f"Cannot write {error.filename or folder}: {error.strerror}.", hint="Choose another folder."
@@ -120,11 +150,46 @@ def _find_images(folder: Path) -> list[Path]:
     return [file for file in folder.iterdir() if file.suffix in {".svg", ".png", ".jpg", ".gif", ".webp"}]
 
 
-def _page(text: str) -> str:
-    """Return Markdown as a web page, with links to the other pages."""
+def _page(file: Path) -> str:
+    """Return a file of the handbook as a web page, with a menu and links to the other pages."""
+    text = file.read_text(encoding="utf-8")
+    title = html.escape(text.partition("\n")[0].removeprefix("# "))
+    body = f"{_menu(file)}<main>\n{_rendered(text)}</main>\n"
+    return _PAGE.format(title=title, style=_STYLE + _PAGE_STYLE, body=body)
+
+
+def _menu(file: Path) -> str:
+    """Return the menu of a page: the previous and next chapter, and all chapters."""
+    found = chapters()
+    files = [chapter.file for chapter in found]
+    place = files.index(file) if file in files else -1
+    near = [("Contents", "index.html")]
+    near += [(f"&larr; {found[place - 1].number}", f"{files[place - 1].stem}.html")] if place > 0 else []
+    near += [(f"{found[place + 1].number} &rarr;", f"{files[place + 1].stem}.html")] if place + 1 < len(found) else []
+    links = " &ensp; ".join(f'<a href="{address}">{name}</a>' for name, address in near)
+    items = "".join(
+        f'<li><a href="{chapter.file.stem}.html"{" aria-current=page" if chapter.file == file else ""}>'
+        f"{html.escape(chapter.title)}</a></li>"
+        for chapter in found
+    )
+    return f"<nav>{links}<details><summary>Chapters</summary><ol>{items}</ol></details></nav>\n"
+
+
+def _slides() -> str:
+    """Return all chapters as slides, one for each section, without exercises."""
+    parts = []
+    for chapter in chapters():
+        text = _NOT_SHOWN.sub("", chapter.file.read_text(encoding="utf-8"))
+        sections = re.split(r"^(?=##? )", text, flags=re.MULTILINE)
+        parts += [section for section in sections if section.strip() and not section.startswith("## Exercises")]
+    body = "".join(f"<section>\n{_rendered(part)}</section>\n" for part in parts)
+    return _PAGE.format(title="Coordinate frames and tf2", style=_STYLE + _SLIDE_STYLE, body=body + _KEYS)
+
+
+def _rendered(text: str) -> str:
+    """Return Markdown as HTML, with links to the other pages."""
     from markdown_it import MarkdownIt  # noqa: PLC0415 - only for web pages
 
     body = MarkdownIt("commonmark").enable("table").render(_EXTERNAL_LINK.sub(r"\1", text))
     body = body.replace('href="README.md', 'href="index.html')
-    body = re.sub(r'href="(\w+)\.md', r'href="\1.html', body)
-    return _PAGE.format(title=html.escape(text.partition("\n")[0].removeprefix("# ")), body=body)
+    return re.sub(r'href="(\w+)\.md', r'href="\1.html', body)

@@ -84,7 +84,7 @@ class Roster(NamedTuple):
     points: Mapping[str, str] | None = None
 
     def find(self, submission: str) -> Student | None:
-        """Return the student of a submission, given the name of its folder or file, or None if nobody matches.
+        """Return the student of a submission, given the name of its folder or file, or None if no student matches.
 
         The names of Moodle and Canvas contain the number of the student on the platform, which is preferred.
         """
