@@ -14,7 +14,7 @@ import zipfile
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe._files.regular_files import check_regular
+from coframe._files.regular_files import check_regular, open_regular, read_regular
 from coframe.course.folders import file_names
 from coframe.errors import CourseError
 
@@ -221,8 +221,7 @@ class _Extraction:
         try:
             if path.is_symlink():
                 raise CourseError(f"{path.name} is a link.", hint="Replace it with a file.")
-            check_regular(path, MAX_EXTRACTED)
-            (target / plain).write_bytes(path.read_bytes())
+            (target / plain).write_bytes(read_regular(path, MAX_EXTRACTED))
         except OSError as error:
             raise CourseError(f"{path.name} cannot be read: {error.strerror}.", hint="Replace the file.") from None
 
@@ -230,7 +229,7 @@ class _Extraction:
 def _extract(path: Path, target: Path) -> None:
     try:
         check_regular(path, _MAX_ARCHIVE)
-        with zipfile.ZipFile(path) as archive:
+        with open_regular(path) as file, zipfile.ZipFile(file) as archive:
             entries = [each for each in archive.infolist() if _is_wanted(each)]
             if len(entries) > MAX_ENTRIES:
                 raise CourseError(
