@@ -76,3 +76,46 @@ def test_the_cloud_follows_the_sliders_of_the_mount(start, open_page):
     page.until("document.querySelector('[data-kind=text] input').value === '0.000 m'")
     page.click("[data-kind=button] button")
     assert program.line() == "camera_link: height 0.80 m, pitch 0.35 rad, 0.000 m"
+
+
+def test_clicks_on_the_floor_make_a_route(start, open_page):
+    program = start("12_record_a_route.py")
+    page = open_page(program.url).drawn()
+    page.until("coframe.nodes.floor?.visible")
+    page.key("v")
+    page.key("a")
+    for point, count in (([1.0, 1.0, 0.0], 1), ([-1.0, 1.0, 0.0], 2), ([-1.0, -1.0, 0.0], 3)):
+        page.raw.wait_for_timeout(350)  # two clicks within this time would be a double-click
+        click_at(page, point)
+        page.until(f"coframe.nodes['route/{count}']?.visible")
+    page.until("document.querySelector('[data-label=Length] input').value.startsWith('4.0')")
+    page.click("[data-kind=button] button:text('Undo')")
+    page.until("!coframe.nodes['route/3']")
+    page.click("[data-kind=button] button:text('Print the route')")
+    assert program.line().startswith("(1.0, 1.0) -> (-1.0, 1.0): ")
+
+
+def test_the_plot_and_the_robot_follow_the_gain(start, open_page):
+    program = start("13_tune_a_controller.py")
+    page = open_page(program.url).drawn()
+    curve = "document.querySelector('[data-kind=plot] path[data-curve=robot]')?.getAttribute('d')"
+    before = page.until(curve)
+    page.until("document.querySelector('[data-label=Overshoot] input').value > '1'")
+    page.raw.locator("[data-label=Damping] input[type=range]").fill("20")
+    page.until("document.querySelector('[data-label=Overshoot] input').value === '0 %'")
+    page.until(f"before => {curve} !== before", before)
+    page.until("Math.abs(coframe.frames.robot.position[0] - 1) < 0.2")
+
+
+def test_a_click_on_a_detection_shows_its_image_and_label(start, open_page):
+    program = start("14_label_detections.py")
+    page = open_page(program.url).drawn()
+    picture = "document.querySelector('[data-kind=image] img')"
+    page.until("coframe.nodes['detection/2']?.visible")
+    page.until(f"{picture}?.naturalWidth === 64 && {picture}.naturalHeight === 48")
+    before = page.evaluate(f"{picture}.src")
+    page.key("a")
+    click_at(page, page.evaluate("coframe.nodes['detection/2'].center"))
+    page.until(f"before => {picture}.src !== before", before)
+    page.raw.select_option("[data-label=Label] select", "person")
+    assert program.line() == "unknown, unknown, person"

@@ -2,6 +2,7 @@
 /** One widget that a program has added. All pages show the same value. */
 
 import type { ClientMessage, Widget } from "../protocol/messages";
+import { smallPlot } from "./small_plot";
 import { fillSelect, h, setText, shorten } from "../util/dom";
 
 type Send = (message: ClientMessage) => void;
@@ -91,6 +92,10 @@ export class WidgetRow {
         return this.text();
       case "checkbox":
         return this.checkbox();
+      case "image":
+        return image();
+      case "plot":
+        return plot();
       case "folder":
         return { elements: [], show: () => {} };
     }
@@ -163,6 +168,31 @@ export class WidgetRow {
     element.addEventListener("change", () => this.use({ flag: element.checked }));
     return { elements: [element], show: ({ flag }) => (element.checked = flag ?? false) };
   }
+}
+
+function image(): Controls {
+  const element = h("img", { class: "widget-image" });
+  return {
+    elements: [element],
+    show: ({ content, label }) => {
+      // Only images in the message itself, never from an address.
+      if (content.startsWith("data:image/png;base64,") && element.src !== content) element.src = content;
+      element.alt = label;
+    },
+  };
+}
+
+function plot(): Controls {
+  const element = h("div", { class: "widget-plot" });
+  let shown = "";
+  return {
+    elements: [element],
+    show: ({ content }) => {
+      if (content === shown) return;
+      shown = content;
+      element.replaceChildren(smallPlot(content));
+    },
+  };
 }
 
 /** Sets the value of a field, unless the user has begun to change it. */

@@ -41,7 +41,7 @@ ShapeKind: TypeAlias = Literal["box", "capsule", "cylinder", "mesh", "sphere"]
 JointKind: TypeAlias = Literal["fixed", "revolute", "continuous", "prismatic", "floating", "planar"]
 AxisName: TypeAlias = Literal["x", "y", "z"]
 NodeKind: TypeAlias = Literal["frame", "points", "lines", "mesh", "text", "image"]
-WidgetKind: TypeAlias = Literal["button", "checkbox", "dropdown", "folder", "number", "slider", "text"]
+WidgetKind: TypeAlias = Literal["button", "checkbox", "dropdown", "folder", "image", "number", "plot", "slider", "text"]
 
 _RvizDisplay = TypedDict(
     "_RvizDisplay",

@@ -589,7 +589,8 @@ class Widget(TypedDict):
 
     Widgets are shown in the order of their ids, inside the folder ``parent`` if it is not None. Sliders and numbers
     have a ``number`` from ``lower`` to ``upper``, None for no limit; drop-downs and text fields have a ``text``;
-    checkboxes have ``flag``. An open folder has the ``flag`` true.
+    checkboxes have ``flag``. An open folder has the ``flag`` true. ``content`` is the data URL of an image, or
+    the curves of a plot as JSON.
     """
 
     type: Literal["widget"]
@@ -607,6 +608,7 @@ class Widget(TypedDict):
     hint: str
     disabled: bool
     visible: bool
+    content: str
 
 
 class RemovedWidgets(TypedDict):

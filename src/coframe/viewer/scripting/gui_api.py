@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from coframe.viewer.scripting import _arguments
+from coframe.viewer.scripting._pictures import image_text, plot_text
 from coframe.viewer.scripting.errors import SceneError
 from coframe.viewer.scripting.widget_handles import (
     ButtonHandle,
@@ -14,13 +15,17 @@ from coframe.viewer.scripting.widget_handles import (
     FolderHandle,
     NumberHandle,
     OpenFolders,
+    PictureHandle,
+    PlotHandle,
     TextFieldHandle,
     checked_options,
 )
 from coframe.viewer.scripting.widgets import WidgetRecord, nearest_step
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
+
+    from numpy.typing import ArrayLike
 
     from coframe.viewer.protocol.common import WidgetKind
     from coframe.viewer.scripting.widgets import WidgetStore
@@ -201,6 +206,41 @@ class GuiApi:
         """
         value = _arguments.parse_flag(initial_value, "initial_value")
         return CheckboxHandle(self._store, self._add("checkbox", label, hint, disabled, visible, value=value))
+
+    def add_image(self, label: str, image: ArrayLike, *, hint: str = "", visible: bool = True) -> PictureHandle:
+        """Add an image; assign to ``image`` of the handle to show another one.
+
+        Args:
+            label: The text above it.
+            image: Gray values (rows, columns), or colors (rows, columns, 3 or 4), as integers from 0 to 255 or floats
+                from 0 to 1.
+            hint: A longer description, shown as a tooltip.
+            visible: Whether it is shown.
+        """
+        return PictureHandle(self._store, self._add("image", label, hint, False, visible, content=image_text(image)))
+
+    def add_plot(
+        self,
+        label: str,
+        x: ArrayLike,
+        curves: Mapping[str, ArrayLike],
+        *,
+        x_label: str = "",
+        hint: str = "",
+        visible: bool = True,
+    ) -> PlotHandle:
+        """Add a plot; call ``update`` of the handle to show other values.
+
+        Args:
+            label: The title.
+            x: The horizontal positions, shape (N,).
+            curves: The values of each curve by its name, shape (N,); NaN is a gap.
+            x_label: The text below the horizontal axis.
+            hint: A longer description, shown as a tooltip.
+            visible: Whether it is shown.
+        """
+        content = plot_text(x, curves, x_label)
+        return PlotHandle(self._store, self._add("plot", label, hint, False, visible, content=content))
 
     def add_folder(self, label: str, *, expand: bool = True, visible: bool = True) -> FolderHandle:
         """Add a folder; widgets that are added in its ``with`` block are in the folder.

@@ -8,13 +8,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast
 
 from coframe.viewer.scripting import _arguments
+from coframe.viewer.scripting._pictures import image_text, plot_text
 from coframe.viewer.scripting.errors import SceneError
 from coframe.viewer.scripting.widgets import nearest_step
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
     from types import TracebackType
 
+    from numpy.typing import ArrayLike
     from typing_extensions import Self
 
     from coframe.viewer.scripting.widgets import WidgetRecord, WidgetStore
@@ -26,6 +28,8 @@ __all__ = [
     "FolderHandle",
     "NumberHandle",
     "OpenFolders",
+    "PictureHandle",
+    "PlotHandle",
     "TextFieldHandle",
     "WidgetEvent",
     "WidgetHandle",
@@ -209,6 +213,33 @@ class CheckboxHandle(_ValueHandle):
     @value.setter
     def value(self, value: bool) -> None:
         self._store.update(self._number, value=_arguments.parse_flag(value, "value"))
+
+
+class PictureHandle(WidgetHandle):
+    """An image of the page."""
+
+    @property
+    def image(self) -> str:
+        """The image as the URL of a PNG; assign an array to show another one."""
+        return self._record.content
+
+    @image.setter
+    def image(self, value: ArrayLike) -> None:
+        self._store.update(self._number, content=image_text(value))
+
+
+class PlotHandle(WidgetHandle):
+    """A plot of the page."""
+
+    def update(self, x: ArrayLike, curves: Mapping[str, ArrayLike], *, x_label: str = "") -> None:
+        """Show other values.
+
+        Args:
+            x: The horizontal positions, shape (N,).
+            curves: The values of each curve by its name, shape (N,); NaN is a gap.
+            x_label: The text below the horizontal axis.
+        """
+        self._store.update(self._number, content=plot_text(x, curves, x_label))
 
 
 class FolderHandle(WidgetHandle):

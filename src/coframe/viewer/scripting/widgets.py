@@ -43,6 +43,7 @@ class WidgetRecord(Record):
         hint: A longer description.
         disabled: Whether it cannot be used.
         visible: Whether it is shown.
+        content: What an image or a plot shows.
     """
 
     kind: WidgetKind
@@ -57,6 +58,7 @@ class WidgetRecord(Record):
     hint: str = ""
     disabled: bool = False
     visible: bool = True
+    content: str = ""
 
     def message(self) -> Widget:
         """Return the message to the pages."""
@@ -78,6 +80,7 @@ class WidgetRecord(Record):
             hint=self.hint,
             disabled=self.disabled,
             visible=self.visible,
+            content=self.content,
         )
 
 
