@@ -106,7 +106,6 @@ DEFINITIONS: Final[Mapping[str, Definition]] = {
     "controller_manager_msgs/srv/SwitchController": Definition(
         _JAZZY, "without `start_controllers`, `stop_controllers` and `start_asap`"
     ),
-    "nav2_msgs/msg/BehaviorTreeStatusChange": Definition(_JAZZY, "`uid`"),
     "rcl_interfaces/msg/Log": Definition(_JAZZY, "the constants are `uint8`, not `byte`: 10 instead of `b'\\n'`"),
     "rmw_dds_common/msg/Gid": Definition(_JAZZY, "16 bytes instead of 24"),
     "rosbag2_interfaces/msg/ReadSplitEvent": Definition(_JAZZY, "`node_name`"),
@@ -163,6 +162,12 @@ BEHAVIORS: Final[Mapping[str, Behavior]] = {
         _JAZZY,
         "absent",
         "present",
+    ),
+    "field_conversions": Behavior(
+        "NumPy's arrays and numbers, integers for `float32` and `float64`, and iterables as values of message fields",
+        _JAZZY,
+        "`AssertionError`",
+        "converted; `ROS_PYTHON_CHECK_FIELDS=1` makes them an `AssertionError`",
     ),
     "endpoint_information": Behavior(
         "information on publishers and subscriptions, also that of `topic info --verbose`",

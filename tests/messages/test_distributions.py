@@ -80,7 +80,8 @@ def test_definitions_are_those_of_the_distribution(distribution: Distribution, t
 
 
 def test_every_definition_that_differs_is_in_the_table() -> None:
-    folders = {path.relative_to(ROOT / "distributions") for path in (ROOT / "distributions").rglob("*.msg")}
+    files = [path for path in (ROOT / "distributions").rglob("*") if path.is_file()]
+    folders = {path.relative_to(ROOT / "distributions") for path in files}
     assert {"/".join([*path.parts[1:-1], path.stem]) for path in folders} == DEFINITIONS.keys()
     for path in folders:
         variant, since = (

@@ -96,7 +96,7 @@ class TestConstructor:
             Vector3(1.0)  # type: ignore[misc]
 
     def test_checks_its_arguments(self) -> None:
-        assert refusal(lambda: Vector3(x=1)) == "The 'x' field must be of type 'float'"
+        assert refusal(lambda: Vector3(x="1")) == "The 'x' field must be of type 'float'"  # type: ignore[arg-type]
         assert "sub message of type 'Header'" in refusal(lambda: TransformStamped(header=None))  # type: ignore[arg-type]
         assert "sub message of type 'Header'" in refusal(lambda: TransformStamped(header=0))  # type: ignore[arg-type]
 
@@ -115,12 +115,12 @@ class TestSetters:
     @pytest.mark.parametrize(
         ("message", "name", "value", "text"),
         [
-            (Vector3(), "x", 0, "The 'x' field must be of type 'float'"),
+            (Vector3(), "x", "0", "The 'x' field must be of type 'float'"),
             (Vector3(), "x", None, "The 'x' field must be of type 'float'"),
             (ColorRGBA(), "r", 1e39, "The 'r' field must be a float in [-3.402823466e+38, 3.402823466e+38]"),
-            (ColorRGBA(), "r", 1, "The 'r' field must be of type 'float'"),
+            (ColorRGBA(), "r", [1], "The 'r' field must be of type 'float'"),
             (Time(), "sec", 1.0, "The 'sec' field must be of type 'int'"),
-            (Time(), "sec", np.int32(1), "The 'sec' field must be of type 'int'"),
+            (Time(), "sec", np.float64(1), "The 'sec' field must be of type 'int'"),
             (Time(), "sec", 2**31, "The 'sec' field must be an integer in [-2147483648, 2147483647]"),
             (Time(), "nanosec", -1, "The 'nanosec' field must be an unsigned integer in [0, 4294967295]"),
             (Int8(), "data", 128, "The 'data' field must be an integer in [-128, 127]"),
@@ -181,13 +181,13 @@ class TestSetters:
             (
                 OccupancyGrid(),
                 "data",
-                array("B"),
+                array("d", [0.5]),
                 "The 'data' array.array() must have the type code of 'b'",
             ),
             (
                 LaserScan(),
                 "ranges",
-                [1],
+                ["1"],
                 (
                     "The 'ranges' field must be a set or sequence and each value of type 'float' and each float in "
                     "[-340282346600000016151267322115014000640.000000, 340282346600000016151267322115014000640.000000]"
@@ -205,7 +205,7 @@ class TestSetters:
             (
                 CameraInfo(),
                 "k",
-                np.zeros(9, np.float32),
+                np.zeros(9, complex),
                 "The 'k' numpy.ndarray() must have the dtype of 'numpy.float64'",
             ),
             (CameraInfo(), "k", np.zeros(8), "The 'k' numpy.ndarray() must have a size of 9"),
@@ -241,8 +241,57 @@ class TestSetters:
         cloud.data = b"\1\2"
         assert cloud.data == array("B", [1, 2])
 
-    def test_sequences_of_numbers_refuse_numpy_arrays(self) -> None:
-        assert "a set or sequence" in refusal(assigning(LaserScan(), "ranges", np.zeros(3)))
+    @pytest.mark.parametrize(
+        ("message", "name", "value", "stored"),
+        [
+            (LaserScan(), "ranges", np.array([1.0, 2.0]), array("f", [1.0, 2.0])),
+            (LaserScan(), "ranges", np.array([1, 2]), array("f", [1.0, 2.0])),
+            (LaserScan(), "ranges", [1, np.float32(2)], array("f", [1.0, 2.0])),
+            (LaserScan(), "ranges", map(float, [1, 2]), array("f", [1.0, 2.0])),
+            (LaserScan(), "ranges", np.zeros(0), array("f")),
+            (LaserScan(), "angle_min", 1, 1.0),
+            (LaserScan(), "angle_min", np.float32(0.5), 0.5),
+            (Time(), "sec", np.int64(3), 3),
+            (Bool(), "data", np.bool_(True), True),
+            (PointCloud2(), "data", np.array([1, 255]), array("B", [1, 255])),
+            (PointCloud2(), "data", [np.uint8(7)], array("B", [7])),
+            (OccupancyGrid(), "data", np.array([-1, 100], np.int64), array("b", [-1, 100])),
+            (OccupancyGrid(), "data", array("B", [1]), array("b", [1])),
+        ],
+    )
+    def test_numbers_are_converted_as_in_jazzy(self, message: Any, name: str, value: Any, stored: Any) -> None:
+        setattr(message, name, value)
+        found = getattr(message, name)
+        assert (found, type(found)) == (stored, type(stored))
+
+    def test_text_and_matrices_are_converted_as_in_jazzy(self) -> None:
+        info = CameraInfo()
+        info.k = np.eye(3, dtype=np.float32)
+        assert (info.k.dtype, info.k.tolist()) == (np.float64, np.eye(3).reshape(-1).tolist())
+        info.k = range(9)
+        assert info.k.tolist() == [float(number) for number in range(9)]
+
+    @pytest.mark.parametrize(
+        ("message", "name", "value"),
+        [
+            (LaserScan(), "ranges", np.zeros((2, 2))),
+            (LaserScan(), "ranges", "12"),
+            (LaserScan(), "ranges", {1.0: 2.0}),
+            (PointCloud2(), "data", np.array([1.5])),
+            (PointCloud2(), "data", np.array([256])),
+            (OccupancyGrid(), "data", np.array([-129])),
+            (CameraInfo(), "k", range(8)),
+            (Time(), "sec", np.int64(2**31)),
+        ],
+    )
+    def test_what_cannot_be_converted_is_refused(self, message: Any, name: str, value: Any) -> None:
+        before = str(message)
+        refusal(assigning(message, name, value))
+        assert str(message) == before
+
+    @pytest.mark.parametrize("environment", [{"COFRAME_DISTRO": "humble"}, {"ROS_PYTHON_CHECK_FIELDS": "1"}])
+    def test_nothing_is_converted_in_humble_and_if_the_user_asks_for_checks(self, environment: dict[str, str]) -> None:
+        assert run(STRICT, **environment) == "AssertionError AssertionError AssertionError"
 
     def test_arrays_of_numbers_become_numpy_arrays(self) -> None:
         info = CameraInfo()
@@ -290,6 +339,19 @@ scan.ranges = [1, 2]
 info = CameraInfo()
 info.k = [1] * 9
 print(vector.x, vector.y, deserialize(serialize(vector), Vector3), scan.ranges, info.k.dtype)
+"""
+
+
+STRICT = """
+import numpy as np
+from sensor_msgs.msg import LaserScan
+found = []
+for name, value in (("ranges", np.zeros(3)), ("ranges", [1]), ("angle_min", 1)):
+    try:
+        setattr(LaserScan(), name, value)
+    except AssertionError as error:
+        found.append(type(error).__name__)
+print(*found)
 """
 
 

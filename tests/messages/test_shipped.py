@@ -66,7 +66,7 @@ def test_messages_check_their_fields_as_generated_ones_do() -> None:
     with pytest.raises(AssertionError, match="with length at most 3"):
         SolidPrimitive(type=1).dimensions = [1.0] * 4
     with pytest.raises(AssertionError, match="must be of type 'float'"):
-        BoundingBox2D(size_x=1)
+        BoundingBox2D(size_x="1")
     with pytest.raises(AttributeError, match="constant"):
         SolidPrimitive.CYLINDER = 4
     assert BoundingBox2D() == BoundingBox2D(size_x=0.0)

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The attributes of messages: values that their setters accept, convert and reject.
 
-The rules and error messages are the same as in Humble's generated classes. The checks are disabled by ``python -O`` and
+The rules and error messages are the same as in Humble's generated classes. Since Jazzy, other numbers are converted
+(`_conversions`). The checks are disabled by ``python -O`` and
 by the environment variable ``ROS_PYTHON_CHECK_FIELDS=0``.
 """
 
@@ -18,6 +19,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from coframe.messages._conversions import CONVERTS, conversion
 from coframe.messages.definition import (
     AbstractNestableType,
     AbstractNestedType,
@@ -69,7 +71,25 @@ def attribute(name: str, type_: AbstractType, slot: Any) -> Any:
     def assign(message: object, value: Any) -> None:
         store(message, check(value))
 
-    return property(attrgetter(f"_{name}"), assign, doc=f"Message field '{name}'.")
+    number = number_of(type_)
+    convert = conversion(type_, number.code if number else "") if CONVERTS and CHECKS_FIELDS else None
+
+    def convert_and_assign(message: object, value: Any) -> None:
+        try:
+            checked = check(value)
+        except AssertionError:
+            assert convert is not None
+            try:
+                converted = convert(value)
+            except (TypeError, ValueError, OverflowError):
+                converted = None
+            if converted is None:
+                raise
+            checked = check(converted)
+        store(message, checked)
+
+    setter = assign if convert is None else convert_and_assign
+    return property(attrgetter(f"_{name}"), setter, doc=f"Message field '{name}'.")
 
 
 def number_of(type_: AbstractType) -> NumberFormat | None:

@@ -19,10 +19,9 @@ class BehaviorTreeLog(Message):
 class BehaviorTreeStatusChange(Message):
     timestamp: builtin_interfaces.msg.Time
     node_name: str
-    uid: int
     previous_status: str
     current_status: str
-    def __init__(self, *, timestamp: builtin_interfaces.msg.Time = ..., node_name: str = ..., uid: int = ..., previous_status: str = ..., current_status: str = ...) -> None: ...
+    def __init__(self, *, timestamp: builtin_interfaces.msg.Time = ..., node_name: str = ..., previous_status: str = ..., current_status: str = ...) -> None: ...
 
 class CollisionDetectorState(Message):
     polygons: list[str]
