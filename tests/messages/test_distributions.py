@@ -133,7 +133,7 @@ def test_names_that_a_distribution_does_not_have_say_so(tmp_path: Path) -> None:
     pose, turtle, *others = run(IMPORTS, "lyrical", tmp_path).splitlines()
     assert pose == (
         "ROS 2 Lyrical and later do not have geometry_msgs/msg/Pose2D, and this process follows Lyrical. Use "
-        "geometry_msgs/msg/Pose, or a message of your own. To follow another distribution, set COFRAME_DISTRO."
+        "geometry_msgs/msg/Pose, or define your own message. To follow another distribution, set COFRAME_DISTRO."
     )
     assert "They are in the package turtlesim_msgs." in turtle
     assert others[1].endswith("Use action_msgs. To follow another distribution, set COFRAME_DISTRO.")

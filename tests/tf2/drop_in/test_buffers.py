@@ -306,4 +306,4 @@ print(buffer.lookupVelocityCore("bar", "foo", Time(seconds=1.5), Duration(second
     )
     assert done.stdout.splitlines() == ["4.5", "((3.0, 0.0, 0.0), (0.0, 0.0, 0.0))"]
     with pytest.raises(AssertionError, match="The 'x' field must be of type 'float'"):
-        TransformStamped().transform.translation.x = 3
+        TransformStamped().transform.translation.x = "3"
