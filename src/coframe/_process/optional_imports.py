@@ -18,6 +18,7 @@ EXTRAS: Final[dict[str, tuple[str, ...]]] = {
     "cli": ("click", "rich", "markdown_it"),
     "dds": ("cyclonedds",),
     "opencv": ("cv2",),
+    "calibration": ("scipy",),
     "params": ("yaml",),
     "parquet": ("pyarrow",),
     "pdf": ("pydyf",),

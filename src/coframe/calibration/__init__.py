@@ -2,6 +2,7 @@
 """Calibrations: read the files of other programs into one rig, compare them, and write them."""
 
 from coframe.calibration.comparison import Difference, Tolerance, compare_rigs
+from coframe.calibration.estimation import RigidCalibration, calibrate_hand_eye, calibrate_rigid
 from coframe.calibration.reading import FORMATS, read
 from coframe.calibration.rig import Rig
 from coframe.calibration.writing import WRITABLE_FORMATS, write
@@ -13,7 +14,10 @@ __all__ = [
     "CalibrationError",
     "Difference",
     "Rig",
+    "RigidCalibration",
     "Tolerance",
+    "calibrate_hand_eye",
+    "calibrate_rigid",
     "compare_rigs",
     "read",
     "write",

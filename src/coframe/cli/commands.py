@@ -64,6 +64,13 @@ COMMANDS: dict[str, CommandRow] = {
         ros=False,
     ),
     "calib": CommandRow("Read, convert and compare calibrations.", "calib", ("bags", "robots"), graph=False, ros=False),
+    "calibrate": CommandRow(
+        "Estimate the mount and the time offset of a sensor.",
+        "calibrate",
+        ("bags", "calibration", "plot"),
+        graph=False,
+        ros=False,
+    ),
     "why": CommandRow("Explain why a transform is or is not available.", "why", ("dds", "bags"), graph=True, ros=False),
     "frames": CommandRow(
         "Show the transform trees, or write a diagram of them.",

@@ -16,11 +16,13 @@ from coframe.trajectories import read_trajectory
 from coframe.trajectories.formats import TRAJECTORY_SUFFIXES
 
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
     from coframe._sources.sources import Readable
     from coframe.bags.namespaces import TransformChoice
     from coframe.transform.transform import Transform
 
-__all__ = ["TRAJECTORY_FORMS", "is_trajectory_file", "read_argument", "read_file"]
+__all__ = ["TRAJECTORY_FORMS", "frame_pair", "is_trajectory_file", "read_argument", "read_file"]
 
 TRAJECTORY_FORMS = (
     "a TUM, KITTI, EuRoC, CSV or npz file, BAG:/TOPIC for the poses on a topic, such as Odometry, PoseStamped or Path, "
@@ -52,7 +54,9 @@ def read_argument(text: str, choice: TransformChoice) -> Transform:
     path, source = _split(text)
     if source:
         with open_recording(path, choice) as recording:
-            return recording.trajectory(source)
+            if source.startswith("/") and ":" not in source:
+                return recording.trajectory(source)
+            return recording.trajectory(frame_pair(source, recording.buffer.frame_names()))
     file = as_source(path)
     if has_known_suffix(PurePath(file.name)) or (isinstance(file, Path) and file.is_dir()):
         fail(
@@ -63,6 +67,27 @@ def read_argument(text: str, choice: TransformChoice) -> Transform:
     return read_file(file)
 
 
+def frame_pair(text: str, frames: Collection[str]) -> tuple[str, str]:
+    """Return the two frames in ``TARGET:SOURCE``, whose names may contain colons, such as ``map:tag36h11:0``."""
+    parts = text.split(":")
+    pairs = [(":".join(parts[:number]), ":".join(parts[number:])) for number in range(1, len(parts))]
+    known = [pair for pair in pairs if {name.lstrip("/") for name in pair} <= {name.lstrip("/") for name in frames}]
+    if len(known) > 1:
+        fail(f"{text!r} can be several pairs of frames: {' or '.join(map(str, known))}", code=2)
+    # The usual names have no colon; the error about an unknown frame then names the second part.
+    return known[0] if known else pairs[0]
+
+
+def _existing_path(text: str) -> tuple[str, str] | None:
+    """Return the shortest path of an existing file in front of at least two names, and these."""
+    parts = text.split(":")
+    for number in range(1, len(parts) - 1):
+        path = ":".join(parts[:number])
+        if path and not is_url(text) and Path(path).exists() and all(parts[number:]):
+            return path, ":".join(parts[number:])
+    return None
+
+
 def _split(text: str) -> tuple[str, str]:
     """Split an argument into a path and a topic or two frames; a path may contain colons."""
     if not is_url(text) and Path(text).exists():
@@ -70,6 +95,8 @@ def _split(text: str) -> tuple[str, str]:
     bag, colon, topic = text.rpartition(":/")
     if colon and (is_url(bag) or (bag and Path(bag).exists())):
         return bag, f"/{topic}"
+    if (colon_path := _existing_path(text)) is not None:
+        return colon_path
     first, *frames = text.rsplit(":", 2)
     is_part_of_url = is_url(text) and not (is_url(first) and urlsplit(first).path)  # http://host:8000/run.tum
     if len(frames) == 2 and all((first, *frames)) and not is_part_of_url:
