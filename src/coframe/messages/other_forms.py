@@ -39,7 +39,7 @@ def other_form(ros_type: str) -> type[Message] | None:
     from coframe.messages.registry import class_of  # noqa: PLC0415
 
     text = shipped_other_form(ros_type)
-    if text is None:
+    if text is None or "/msg/" not in ros_type:
         return None
     (structure,) = parse(text, ros_type.partition("/")[0])
     inner = {}
