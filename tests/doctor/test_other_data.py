@@ -157,7 +157,7 @@ def test_gravity_at_rest(examine, turn, published, reading):
         (Rotation.from_euler("xyz", [8, -5, 30], True), Rotation.identity(), {}),
         (Rotation.from_euler("xyz", [31, -17, 30], True), Rotation.from_euler("xyz", [3, 4, 12], True), {}),
     ],
-    ids=["right", "acceleration downward", "moving", "on a slope", "no usual mistake"],
+    ids=["right", "acceleration downward", "moving", "on a slope", "no common mistake"],
 )
 def test_gravity_is_silent_where_nothing_is_certain(contradictions, turn, published, options):
     assert contradictions(with_imu(turn, published, **options)) == []

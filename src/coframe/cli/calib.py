@@ -111,7 +111,7 @@ def _only(rig: Rig, camera: str) -> Rig:
 def diff(first: Path, second: Path, tolerance: str, rename: tuple[str, ...], as_json: bool) -> None:
     """Compare two calibrations, and exit with 1 if they differ by more than the tolerance.
 
-    Frames are compared by name. Where a usual mistake explains a difference, it is named: an inverse, optical and body
+    Frames are compared by name. Where a common mistake explains a difference, it is named: an inverse, optical and body
     axes, a quaternion with w first, degrees, millimeters.
 
     Example: coframe calib diff camchain.yaml run.mcap --tolerance 5mm,0.2deg

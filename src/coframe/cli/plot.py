@@ -58,7 +58,7 @@ _SUFFIXES = ", ".join(f".{kind}" for kind in FIGURE_FORMATS)
     help="What to plot. Pose of base_link relative to odom: odom:base_link.x, also .y .z .roll .pitch .yaw "
     ".distance; the same of poses on a topic: /odom.yaw. Message field: /odom.twist.twist.linear.x, /scan.ranges[0]. "
     "Rate or delay of a topic or edge: /tf.rate, odom:base_link.delay. 'odom->base_link.x' also works, but needs "
-    "quotes. Of a trajectory file: x, y, z, roll, pitch, yaw, distance.",
+    "quotes. From a trajectory file: x, y, z, roll, pitch, yaw, distance.",
 )
 @click.option(
     "--output",

@@ -78,7 +78,7 @@ def flicker(edge: Edge) -> Flicker | None:
 
 
 def alternation_cause(edge: Edge, found: Flicker) -> str:
-    """Return a clause with the mistake that explains how the two poses differ, or "" if no usual mistake does."""
+    """Return a clause with the mistake that explains how the two poses differ, or "" if no common mistake does."""
     rows = found.rows[: 2 * _MAX_COMPARED : 2]  # every second jump returns
     explained = explain_mutual_difference(edge.poses(rows), edge.poses(rows + 1), **_tolerances(edge))
     return f"; {explained[0].text('the other', 'one of them')}" if explained else ""

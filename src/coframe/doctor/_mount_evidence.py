@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Mounts that gravity or the points of a lidar contradict, and the usual mistakes that make them agree."""
+"""Mounts that gravity or the points of a lidar contradict, and the common mistakes that make them agree."""
 
 from __future__ import annotations
 
@@ -156,7 +156,7 @@ def _find_by_overlap(
 
 
 def _distinct_corrections(edge: Edge) -> list[Correction]:
-    """Return the corrections of a mount with different poses, the most usual mistakes first."""
+    """Return the corrections of a mount with different poses, the most common mistakes first."""
     found: dict[tuple[float, ...], Correction] = {}
     for correction in corrections(edge.last_pose[0]):
         if "camera" in correction.reading and "cam" not in edge.child.lower():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Transforms that differ from an odometry topic by a usual mistake."""
+"""Transforms that differ from an odometry topic by a common mistake."""
 
 from __future__ import annotations
 

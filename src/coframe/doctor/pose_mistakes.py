@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The usual mistakes in poses: quaternions in another order, degrees used as radians, inverted transforms, other units.
+"""The common mistakes in poses: quaternions in another order, degrees used as radians, inverted transforms, other units.
 
 A mistake is recognized by trial: it is applied to a pose that is known from other data, and undone in the published
 one. If they then agree, :func:`explain` names the mistake with the remaining difference; otherwise it returns None.
@@ -122,7 +122,7 @@ class Correction(NamedTuple):
 def explain(
     published: Array, expected: Array, *, meters: float = _MAX_DISTANCE, radians: float = _MAX_ANGLE
 ) -> Explanation | None:
-    """Return the mistake that makes the expected poses the published ones, or None if no usual mistake does.
+    """Return the mistake that makes the expected poses the published ones, or None if no common mistake does.
 
     Args:
         published: (N, 7) poses, with unit quaternions.
@@ -164,7 +164,7 @@ def explain_mutual_difference(
     """Return the least ambiguous mistake that explains how two poses differ, either of which may be the wrong one.
 
     Returns:
-        The mistake, and whether it is in the first poses, or None if no usual mistake explains the difference.
+        The mistake, and whether it is in the first poses, or None if no common mistake explains the difference.
     """
     limits = {"meters": meters, "radians": radians}
     found = [(explain(first, second, **limits), True), (explain(second, first, **limits), False)]

@@ -26,7 +26,7 @@ _TURNED = 1e-3
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """Yield findings only where a usual mistake makes the transform agree with the other data."""
+    """Yield findings only where a common mistake makes the transform agree with the other data."""
     for found in (*gravity_contradictions(observation), *points_contradictions(observation)):
         rule = replace_mount(found.edge.child, np.round(found.pose, 9))
         command = static_command(*found.edge.key, np.round(found.pose, 9).tolist())
