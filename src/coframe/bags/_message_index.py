@@ -235,7 +235,7 @@ class MessageIndex:
         Messages with equal times come in the order in which they were written.
         """
         topics = list(self._tracks if topics is None else topics)
-        self._complete(topics, start, stop)
+        self._read_positions(topics, start, stop)
         tracks = [track for name in topics for track in self.tracks(name)]
         if not tracks:
             return
@@ -277,14 +277,14 @@ class MessageIndex:
         files = np.repeat([self._storages[track.storage] for track in tracks], [len(each.received) for each in tracks])
         return np.lexsort((positions, files, received))
 
-    def _complete(self, topics: Collection[str], start: int | None = None, stop: int | None = None) -> None:
+    def _read_positions(self, topics: Collection[str], start: int | None = None, stop: int | None = None) -> None:
         """Read the positions of the messages on topics, if they have not been read."""
         if self._loader is not None:
             self._check_open()
             self._loader.load(topics, start, stop)
 
     def _rows_of(self, topic: str) -> _Rows:
-        self._complete((topic,))
+        self._read_positions((topic,))
         return self._rows_in_memory(topic)
 
     def _rows_in_memory(self, topic: str) -> _Rows:

@@ -222,7 +222,7 @@ def with_covariance(buffer: _core.Buffer, pose: Transform, edge_pose: Callable[[
 
 
 def _edges(buffer: _core.Buffer, pose: Transform, times: NDArray[np.int64]) -> Iterator[tuple[str, str, str]]:
-    """Yield the edges from the target to the source: the nearer frame, the farther one, and which of them is the child.
+    """Yield each edge from the target to the source as the nearer frame, the farther frame, and the child of the two.
 
     The chain is that of the first time.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The class Buffer."""
+"""The buffer: a thread-safe store of transforms over time."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The common mistakes in poses: quaternions in another order, degrees used as radians, inverted transforms, other units.
+"""Common mistakes in poses: quaternions in another order, degrees used as radians, inverted transforms, other units.
 
 A mistake is recognized by trial: it is applied to a pose that is known from other data, and undone in the published
 one. If they then agree, :func:`explain` names the mistake with the remaining difference; otherwise it returns None.

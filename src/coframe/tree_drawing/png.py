@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ["as_png"]
 
-_INCH = 96.0  # pixels of the drawing
+_PIXELS_PER_INCH = 96.0  # pixels of the drawing
 _DENSITY = 192.0  # pixels of the image per inch: sharp on any screen
 _MAX_SIDE = 16_000.0  # Pixels of the image; matplotlib supports 2**16, at a memory of 4 bytes per pixel.
 _MAX_PIXELS = 100e6
@@ -35,7 +35,7 @@ _POINT = 0.75  # points of 1/72 inch per pixel of the drawing
 def as_png(forest: Forest, title: str) -> bytes:
     """Return the file as bytes."""
     drawing = draw(forest, title, _replace_unsupported)
-    width, height = drawing.width / _INCH, drawing.height / _INCH
+    width, height = drawing.width / _PIXELS_PER_INCH, drawing.height / _PIXELS_PER_INCH
     density = min(_DENSITY, _MAX_SIDE / max(width, height), (_MAX_PIXELS / (width * height)) ** 0.5)
     figure = Figure(figsize=(width, height), facecolor="white")
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The class CvBridge."""
+"""Conversion between images as messages and as arrays: CvBridge."""
 
 import sys
 from array import array

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The class LaserProjection."""
+"""Projection of laser scans to point clouds: LaserProjection."""
 
 from typing import Any
 

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 IS_SOURCED = True
 
-_logged: set[str] = set()
+_logged_messages: set[str] = set()
 
 # A node's guard condition wakes the executor that spins the node.
 _guard_conditions: weakref.WeakKeyDictionary[Node, Any] = weakref.WeakKeyDictionary()
@@ -122,8 +122,8 @@ def _default_wire(node: Node) -> str:
     problem = _native_problem()
     if problem is None:
         return "native"
-    if problem not in _logged:
-        _logged.add(problem)
+    if problem not in _logged_messages:
+        _logged_messages.add(problem)
         node.get_logger().info(f"Transforms are received through the ROS node (wire rclpy): {problem}")
     return "rclpy"
 
