@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
-__all__ = ["BEGINNING", "what_else"]
+__all__ = ["BEGINNING_SIZE", "describe_other_kind"]
 
-BEGINNING = 16
+BEGINNING_SIZE = 16
 """Bytes from the beginning of a file that are enough."""
 
 _TEXT_MODE = "a transfer in text mode, or Git, has changed the line ends; transfer the file in binary mode"
@@ -36,11 +36,11 @@ _KINDS = {
 }
 
 
-def what_else(beginning: bytes) -> str:
+def describe_other_kind(beginning: bytes) -> str:
     """Return a clause that describes a file of another kind and what to do with it, or "" if the kind is unknown.
 
     Args:
-        beginning: The first `BEGINNING` bytes; fewer if the file is shorter.
+        beginning: The first `BEGINNING_SIZE` bytes; fewer if the file is shorter.
     """
     if not beginning:
         return "the file is empty (0 bytes)"

@@ -14,7 +14,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
-from coframe._files.other_files import BEGINNING, what_else
+from coframe._files.other_files import BEGINNING_SIZE, describe_other_kind
 from coframe._files.regular_files import open_regular, reading_hint
 from coframe._files.temporary_folders import temporary_folder
 from coframe._output.formatting import join_names
@@ -48,7 +48,7 @@ if TYPE_CHECKING:
 
 __all__ = ["OpenedFiles", "open_files"]
 
-_ZSTD = b"\x28\xb5\x2f\xfd"
+_ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"
 _UNPACKED_PIECE = 1 << 20  # bytes
 _MAX_EXPANSION = 16 << 20  # bytes; incompressible data grows by less than this
 
@@ -169,9 +169,9 @@ def _is_candidate(file: Path, problems: Problems) -> bool:
 
 def _read_beginning(file: Readable) -> bytes:
     if isinstance(file, Source):
-        return file.read(0, BEGINNING)
+        return file.read(0, BEGINNING_SIZE)
     with open_regular(file) as opened:
-        return opened.read(BEGINNING)
+        return opened.read(BEGINNING_SIZE)
 
 
 def _natural_sort_key(file: Path) -> list[tuple[int, int, str]]:
@@ -184,7 +184,7 @@ def _natural_sort_key(file: Path) -> list[tuple[int, int, str]]:
 
 def _open(file: Readable, problems: Problems, closing: ExitStack) -> Storage | None:
     start = _read_beginning(file)
-    if start.startswith(_ZSTD):
+    if start.startswith(_ZSTD_MAGIC):
         path = file.copy(closing) if isinstance(file, Source) else file
         file, start = _unpack_file(path, problems, closing)
     for each in formats():
@@ -193,7 +193,7 @@ def _open(file: Readable, problems: Problems, closing: ExitStack) -> Storage | N
     names = [each.name for each in formats()]
     reason = next(filter(None, (each.refusal(start) for each in formats())), "")
     unknown = f"the file is in none of these formats: {', '.join(names)}"
-    problems.add(f"{file.name}: {reason or what_else(start) or unknown}")
+    problems.add(f"{file.name}: {reason or describe_other_kind(start) or unknown}")
     return None
 
 

@@ -232,7 +232,7 @@ class MessageIndex:
     ) -> Iterator[tuple[Channel, int, bytes]]:
         """Yield channel, receive time and bytes of the messages on several topics in receive order.
 
-        Messages with equal times come in the order in which they were written.
+        Messages with equal times keep the order in which they were written.
         """
         topics = list(self._tracks if topics is None else topics)
         self._read_positions(topics, start, stop)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, NoReturn, TypeVar
 from xml.parsers import expat
 
-from coframe._files.other_files import BEGINNING, what_else
+from coframe._files.other_files import BEGINNING_SIZE, describe_other_kind
 from coframe.errors import RobotDescriptionError
 from coframe.robots._well_formed import repair_xml
 
@@ -214,8 +214,8 @@ def read(data: str | bytes) -> Document:
         warnings.append(f"line {line}: not well-formed XML: {reason}. The document was repaired")
         with contextlib.suppress(expat.ExpatError):
             return Document(_parse(repair, warnings), repair, warnings)
-    beginning = data[:BEGINNING].encode() if isinstance(data, str) else data[:BEGINNING]
-    if data and (what := what_else(beginning)):
+    beginning = data[:BEGINNING_SIZE].encode() if isinstance(data, str) else data[:BEGINNING_SIZE]
+    if data and (what := describe_other_kind(beginning)):
         raise RobotDescriptionError(f"not a robot description: {what}")
     raise RobotDescriptionError(f"not well-formed XML: {reason}", line=line, hint=_xml_hint(text))
 

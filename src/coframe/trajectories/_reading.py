@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, BinaryIO
 import numpy as np
 
 from coframe._files.os_errors import reason
-from coframe._files.other_files import BEGINNING, what_else
+from coframe._files.other_files import BEGINNING_SIZE, describe_other_kind
 from coframe._output.formatting import count
 from coframe._sources.sources import as_source, open_file
 from coframe.errors import InvalidArgumentException, TrajectoryError
@@ -39,7 +39,7 @@ READABLE_FORMATS = ("tum", "kitti", "euroc", "csv", "npz")
 MAX_LINE = 10_000  # characters
 MAX_POSES = 1_000_000  # 2.7 hours at 100 Hz
 MAX_UNPACKED = 256 << 20  # bytes of an npz file after decompression
-_ZIP = b"PK"
+_ZIP_MAGIC = b"PK"
 _UTF_16 = (b"\xff\xfe", b"\xfe\xff")  # as PowerShell writes text
 _COMMAND_HINT = "`coframe trajectory BAG TARGET SOURCE -o FILE` writes the trajectory of a frame in a recording."
 _SECONDS = re.compile(r"(-?)(\d+)(?:\.(\d*))?", re.ASCII)
@@ -117,12 +117,12 @@ def read_trajectory(
     try:
         file = as_source(path)
         with open_file(file) as stream:
-            beginning = stream.read(BEGINNING)
+            beginning = stream.read(BEGINNING_SIZE)
             stream.seek(0)
-            is_zip = beginning.startswith(_ZIP)
+            is_zip = beginning.startswith(_ZIP_MAGIC)
             if format_ == "npz" or (format_ is None and is_zip):
                 poses, sentences = _read_npz(file, stream)
-            elif what := what_else(beginning):
+            elif what := describe_other_kind(beginning):
                 raise TrajectoryError(
                     f"{file} is not a trajectory: {what}", hint=_COMMAND_HINT if "rec" in what else ""
                 )

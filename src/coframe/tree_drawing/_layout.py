@@ -19,13 +19,13 @@ if TYPE_CHECKING:
 
 __all__ = ["Box", "Label", "Line", "TreeLayout", "draw"]
 
-INK, FAINT, ALARM = "#1a1a1a", "#4a5560", "#b3261e"
+TEXT_COLOR, SECONDARY_COLOR, ERROR_COLOR = "#1a1a1a", "#4a5560", "#b3261e"
 # The colors of the fill and the border by kind of frame.
 _COLORS = {
     "root": ("#fff6da", "#9a6b00"),
     "moving": ("#e8f1fd", "#1d5fae"),
     "static": ("#f1f3f5", "#7b8794"),
-    "stale": ("#fdeceb", ALARM),
+    "stale": ("#fdeceb", ERROR_COLOR),
 }
 _LINE = "#5c6873"
 _NAME, _SMALL_FONT, _TITLE = 14.0, 11.0, 20.0  # font sizes
@@ -52,7 +52,7 @@ class Line(NamedTuple):
 
     points: tuple[tuple[float, float], ...]
     color: str
-    dashed: bool = False
+    is_dashed: bool = False
 
 
 class Label(NamedTuple):
@@ -62,7 +62,7 @@ class Label(NamedTuple):
     y: float
     text: str
     size: float
-    color: str = INK
+    color: str = TEXT_COLOR
     bold: bool = False
 
 
@@ -111,14 +111,14 @@ def draw(forest: Forest, title: str, spell: Callable[[str], str] = str) -> TreeL
     blocks = {name: _make_block(frame, spell) for name, frame in forest.frames.items()}
     shapes: list[Box | Line | Label] = []
     shapes.append(Label(_MARGIN, _MARGIN + _TITLE, spell(display_name(title)), _TITLE, bold=True))
-    shapes.append(Label(_MARGIN, _MARGIN + _TITLE + 22.0, spell(summary(forest)), _NAME, FAINT))
+    shapes.append(Label(_MARGIN, _MARGIN + _TITLE + 22.0, spell(summary(forest)), _NAME, SECONDARY_COLOR))
     shapes += _legend(_MARGIN + _TITLE + 38.0)
     top = _MARGIN + _TITLE + 76.0
     places: dict[str, _Place] = {}
     for number, tree in enumerate(forest.by_tree(), 1):
         if len(forest.trees) > 1:
             heading = spell(f"Tree {number} of {len(forest.trees)}: {display_name(tree[0].name)}")
-            shapes.append(Label(_MARGIN, top, heading, _NAME, FAINT, bold=True))
+            shapes.append(Label(_MARGIN, top, heading, _NAME, SECONDARY_COLOR, bold=True))
             top += 16.0
         top = _place_frames(tree, blocks, top, places) + _TREE_GAP
     shapes += _edges(forest, places)
@@ -132,8 +132,8 @@ def draw(forest: Forest, title: str, spell: Callable[[str], str] = str) -> TreeL
 
 def _make_block(frame: Frame, spell: Callable[[str], str]) -> _Block:
     name = spell(display_name(frame.name))
-    lines = [(spell(line), FAINT) for line in figures(frame)] + [
-        (spell(line), ALARM) for line in position_problems(frame)
+    lines = [(spell(line), SECONDARY_COLOR) for line in figures(frame)] + [
+        (spell(line), ERROR_COLOR) for line in position_problems(frame)
     ]
     width = max([_width(name, _NAME, bold=True), *(_width(line, _SMALL_FONT) for line, _ in lines)])
     return _Block(name, lines, width + 2 * _PAD, (_NAME + _SMALL_FONT * len(lines)) * _LINE_SPACING + _PAD)
@@ -208,7 +208,7 @@ def _alarming_edges(forest: Forest, places: dict[str, _Place]) -> Iterator[Line]
             others[frame.parent] = None
         end = (places[name].x, places[name].y + places[name].height - _PAD)
         for other in (places[parent] for parent in others):
-            yield Line(((other.right, other.y + other.height - _PAD), end), ALARM, dashed=True)
+            yield Line(((other.right, other.y + other.height - _PAD), end), ERROR_COLOR, is_dashed=True)
 
 
 def _frame(frame: Frame, block: _Block, place: _Place) -> Iterator[Box | Label]:
@@ -228,5 +228,5 @@ def _legend(top: float) -> Iterator[Box | Label]:
         ("stale", "stale: no recent transform"),
     ):
         yield Box(x, top, 18.0, 12.0, *_COLORS[kind])
-        yield Label(x + 24.0, top + 10.0, text, _SMALL_FONT, FAINT)
+        yield Label(x + 24.0, top + 10.0, text, _SMALL_FONT, SECONDARY_COLOR)
         x += 44.0 + _width(text, _SMALL_FONT)

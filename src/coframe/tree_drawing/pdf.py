@@ -66,7 +66,7 @@ def _draw(page: pydyf.Stream, shape: Box | Line | Label) -> None:
         page.fill_and_stroke()
     elif isinstance(shape, Line):
         page.set_color_rgb(*_rgb(shape.color), stroke=True)
-        page.set_dash([6, 4] if shape.dashed else [], 0)
+        page.set_dash([6, 4] if shape.is_dashed else [], 0)
         page.move_to(*shape.points[0])
         for point in shape.points[1:]:
             page.line_to(*point)

@@ -58,7 +58,7 @@ def _draw(axes: Axes, shape: Box | Line | Label) -> None:
     elif isinstance(shape, Line):
         x, y = zip(*shape.points, strict=True)
         line = Line2D(x, y, color=shape.color, linewidth=_POINT)
-        if shape.dashed:
+        if shape.is_dashed:
             line.set_dashes((6, 4))
         axes.add_line(line)
     else:

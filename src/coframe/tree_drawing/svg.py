@@ -39,7 +39,7 @@ def _shape(shape: Box | Line | Label) -> str:
         )
     if isinstance(shape, Line):
         points = " ".join(f"{x:.1f},{y:.1f}" for x, y in shape.points)
-        dashes = ' stroke-dasharray="6 4"' if shape.dashed else ""
+        dashes = ' stroke-dasharray="6 4"' if shape.is_dashed else ""
         return f'<polyline points="{points}" fill="none" stroke="{shape.color}"{dashes}/>'
     weight = ' font-weight="bold"' if shape.bold else ""
     return (

@@ -7,7 +7,7 @@ import re
 from typing import TYPE_CHECKING, Any, Final
 
 from coframe._files.bounded_yaml import MAX_BYTES, yaml_events
-from coframe._files.other_files import BEGINNING, what_else
+from coframe._files.other_files import BEGINNING_SIZE, describe_other_kind
 from coframe._files.regular_files import read_regular
 from coframe._process.optional_imports import pip_install
 from rclpy._parameter_words import parse_scalar
@@ -64,7 +64,7 @@ def load_parameters(path: str) -> dict[str, dict[str, Any]]:
     """
     text = read_regular(path, MAX_BYTES)
     # Such files are valid YAML without parameters: a node would start with its defaults. An empty one is, too, in rcl.
-    if text and (what := what_else(text[:BEGINNING])):
+    if text and (what := describe_other_kind(text[:BEGINNING_SIZE])):
         raise ValueError(what)
     reader = _FileReader()
     for event in _events(text):

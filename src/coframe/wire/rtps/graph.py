@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 MAX_DEPARTED_WRITERS = 1_000  # remembered after they have left, because their requests may still be queued
 
 _BATCH = 256  # messages
-_ENCLAVE = b"enclave="  # in the user data of every participant of ROS
+_ENCLAVE_KEY = b"enclave="  # in the user data of every participant of ROS
 _PARTICIPANT = slice(4, 20)  # of a message on the topic ros_discovery_info
 _HIDDEN = REQUESTS_HISTORY.encode()
 
@@ -203,7 +203,7 @@ class DdsGraph(Graph):
         changes = [] if self._participant_reader is None else self._participant_reader.take()
         for handle, alive, guid, *_, user_data, _ in changes:
             if alive:
-                self._participants[handle] = guid, _ENCLAVE in user_data
+                self._participants[handle] = guid, _ENCLAVE_KEY in user_data
             else:
                 self._participants.pop(handle, None)
         return bool(changes)
