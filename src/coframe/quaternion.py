@@ -163,7 +163,7 @@ def to_euler(q: Array, seq: str) -> Array:
     """
     axes, intrinsic = _axes(seq)
     if len(axes) != 3 or axes[0] == axes[1] or axes[1] == axes[2]:
-        raise ValueError(f"seq must be three axes of which neighbors differ, such as 'ZYX' or 'xyz', not {seq!r}")
+        raise ValueError(f"seq must be three axes without equal neighbors, such as 'ZYX' or 'xyz', not {seq!r}")
     i, j, k = reversed(axes) if intrinsic else axes
     is_symmetric = i == k
     k = 3 - i - j if is_symmetric else k

@@ -93,7 +93,7 @@ class Clouds:
             sensor, the nearest frame above that does not; see ``fixed_frames``.
         fields: The fields to keep in addition to x, y, z, or None for all fields with one number per point.
         max_gap: The longest interval between two transforms of an edge to interpolate over, such as ``"200ms"``. None
-            interpolates over any; see ``gaps``.
+            interpolates over any gap; see ``gaps``.
         on_gap: What to do with points in longer gaps: ``"omit"`` them, set their coordinates to ``"nan"``, or
             ``"raise"`` an ExtrapolationException.
         validity: Whether the points get the field ``gap_ns``: the longest interval between two transforms of an edge

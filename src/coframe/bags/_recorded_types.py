@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 __all__ = ["RecordedTypes", "UnknownTypeError"]
 
 _ROS_ENCODINGS = {"cdr", "ros1"}
-_EVENT = "_Event"
+_EVENT_SUFFIX = "_Event"
 _MAX_CACHED_TEXT = 2 << 20  # bytes of the definitions that are kept parsed
 _MAX_SHORT_TEXT = 1 << 13  # bytes of definitions whose beginning is cached for the next recording
 _MIN_COUNTED_BYTES = 1 << 12  # minimum bytes counted per definition
@@ -210,9 +210,12 @@ def _name(channel: Channel) -> str:
 def _schema_without_text(name: str) -> ResolvedSchema:
     """Return the definition of service events, derived from the service."""
     package, _, rest = name.partition("/srv/")
-    if not rest.endswith(_EVENT) or known_class(f"{package}/srv/{rest.removesuffix(_EVENT)}_Request") is None:
+    if (
+        not rest.endswith(_EVENT_SUFFIX)
+        or known_class(f"{package}/srv/{rest.removesuffix(_EVENT_SUFFIX)}_Request") is None
+    ):
         raise UnknownTypeError("the recording contains no definition")
-    return ResolvedSchema(Schema(name, {name: event(package, rest.removesuffix(_EVENT))}))
+    return ResolvedSchema(Schema(name, {name: event(package, rest.removesuffix(_EVENT_SUFFIX))}))
 
 
 def _definition_problem(error: InterfaceError) -> UnknownTypeError:

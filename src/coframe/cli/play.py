@@ -262,7 +262,7 @@ def _parse_remapping(text: str) -> tuple[str, str]:
 
 
 def _watch(player: Player, *, reads_keys: bool) -> None:
-    printed: set[str] = set()
+    printed_problems: set[str] = set()
     console = Console(stderr=True)
     print(
         f"playing {player.recording.path}" + (f"; {_HELP}" if reads_keys and sys.stdin.isatty() else ""),
@@ -281,8 +281,8 @@ def _watch(player: Player, *, reads_keys: bool) -> None:
         while not player.wait(0 if pressed else _REFRESH_TIME):
             if pressed:
                 _handle_key(player, pressed.read(_REFRESH))
-            for problem in [problem for problem in player.problems if problem not in printed]:
-                printed.add(problem)
+            for problem in [problem for problem in player.problems if problem not in printed_problems]:
+                printed_problems.add(problem)
                 warn(problem)
     print(f"played {count(player.played, 'message')}")
 

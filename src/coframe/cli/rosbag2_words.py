@@ -29,21 +29,21 @@ class Rosbag2Words(NamedTuple):
     """The options of a command of ``ros2 bag``.
 
     Attributes:
-        renamed: Options with another name in coframe.
-        lists: Options of coframe's command that take all words up to the next option in rosbag2. If the command has the
-            argument BAG, this only applies when the recording comes first or is the value of --input, because it could
-            be the last of the words otherwise.
+        new_names: Options with another name in coframe.
+        list_options: Options of coframe's command that take all words up to the next option in rosbag2. If the command
+            has the argument BAG, this only applies when the recording comes first or is the value of --input, because
+            it could be the last of the words otherwise.
         zero_is_none: Renamed options whose value 0 means that there is no limit.
-        ignored: Options without effect, with the number of their values.
-        refused: Options that coframe does not have, with what to do instead.
+        ignored_options: Options without effect, with the number of their values.
+        unsupported: Options that coframe does not support, with the alternative.
     """
 
-    renamed: Mapping[str, str] = MappingProxyType({})
-    lists: frozenset[str] = frozenset()
+    new_names: Mapping[str, str] = MappingProxyType({})
+    list_options: frozenset[str] = frozenset()
     has_bag: bool = True
     zero_is_none: frozenset[str] = frozenset()
-    ignored: Mapping[str, int] = MappingProxyType({})
-    refused: Mapping[str, str] = MappingProxyType({})
+    ignored_options: Mapping[str, int] = MappingProxyType({})
+    unsupported: Mapping[str, str] = MappingProxyType({})
 
     def translate(self, args: list[str]) -> list[str]:
         """Translate the command line to coframe's options, or end the command if an option is not supported."""
@@ -58,21 +58,21 @@ class Rosbag2Words(NamedTuple):
                 skipped -= 1
                 continue
             name, equals, value = word.partition("=")
-            name = self.renamed.get(name, name)
+            name = self.new_names.get(name, name)
             if not word.startswith("-") or _is_number(word):
                 words += [repeated, word] if repeated and words[-1:] != [repeated] else [word]
                 continue
             repeated = ""
-            if name in self.refused:
-                fail(f"{name} does not exist in coframe", self.refused[name], code=2)
-            if name in self.ignored:
-                skipped = 0 if equals else self.ignored[name]
+            if name in self.unsupported:
+                fail(f"{name} does not exist in coframe", self.unsupported[name], code=2)
+            if name in self.ignored_options:
+                skipped = 0 if equals else self.ignored_options[name]
                 continue
             if name in self.zero_is_none and (value or "".join(args[position + 1 : position + 2])) == "0":
                 skipped = 0 if equals else 1
                 continue
             words.append(f"{name}={value}" if equals else name)
-            repeated = name if name in self.lists and is_bag_known and not equals else ""
+            repeated = name if name in self.list_options and is_bag_known and not equals else ""
         return words
 
 
@@ -109,7 +109,7 @@ _COMMON_UNSUPPORTED: dict[str, str] = {
     "--storage-config-file": _STORAGE_FILE,
 }
 RECORD_WORDS = Rosbag2Words(
-    renamed={
+    new_names={
         "--max-bag-size": "--max-size",
         "-b": "--max-size",
         "--max-bag-duration": "--max-duration",
@@ -120,12 +120,12 @@ RECORD_WORDS = Rosbag2Words(
         "-p": "--polling-interval",
         "-f": "--serialization-format",
     },
-    lists=frozenset(
+    list_options=frozenset(
         {"--topics", "--topic-types", "--services", "--exclude-topics", "--exclude-topic-types", "--exclude-services"}
     ),
     has_bag=False,
     zero_is_none=frozenset({"--max-size", "--max-duration", "--backlog"}),
-    ignored={
+    ignored_options={
         "--polling-interval": 1,  # Discovery is not polled.
         "--include-unpublished-topics": 0,  # Topics are recorded as soon as they have a publisher.
         "--repeat-transient-local": 0,  # Each file begins with the latched messages.
@@ -137,7 +137,7 @@ RECORD_WORDS = Rosbag2Words(
         "--max-cache-duration": 1,
         "--log-level": 1,
     },
-    refused={
+    unsupported={
         **_COMMON_UNSUPPORTED,
         "--snapshot-mode": "Record with --max-duration and keep the newest files.",
         "--start-paused": "Start the command when the recording should begin.",
@@ -156,15 +156,15 @@ RECORD_WORDS = Rosbag2Words(
     },
 )
 PLAY_WORDS = Rosbag2Words(
-    renamed={
+    new_names={
         "-l": "--loop",
         "-p": "--start-paused",
         "-d": "--delay",
         "--exclude-regex": "--exclude",
         "-x": "--exclude",
     },
-    lists=frozenset({"--topics", "--exclude-topics", "--remap", "-m"}),
-    ignored={
+    list_options=frozenset({"--topics", "--exclude-topics", "--remap", "-m"}),
+    ignored_options={
         "--storage": 1,  # The format of a recording is detected.
         "-s": 1,
         "--read-ahead-queue-size": 1,
@@ -174,7 +174,7 @@ PLAY_WORDS = Rosbag2Words(
         "--progress-bar-update-rate": 1,
         "--progress-bar-separation-lines": 1,
     },
-    refused={
+    unsupported={
         **_COMMON_UNSUPPORTED,
         "--clock-topics": "--clock HZ publishes /clock at a fixed rate.",
         "--clock-topics-all": "--clock HZ publishes /clock at a fixed rate.",
@@ -189,4 +189,4 @@ PLAY_WORDS = Rosbag2Words(
     },
 )
 # The other commands, such as `bag info`: the format of a recording is detected.
-BAG_WORDS = Rosbag2Words(ignored={"--storage": 1, "-s": 1})
+BAG_WORDS = Rosbag2Words(ignored_options={"--storage": 1, "-s": 1})

@@ -204,11 +204,12 @@ class ObservedClock:
 
     def at(self, arrived: NDArray[np.int64]) -> NDArray[np.int64]:
         """Return the simulated time at given arrival times, interpolated between the messages."""
-        between = np.interp((arrived - self.arrived[0]).astype(np.float64), self.arrived - self.arrived[0], self._since)
+        elapsed = (arrived - self.arrived[0]).astype(np.float64)
+        between = np.interp(elapsed, self.arrived - self.arrived[0], self._elapsed_times)
         return np.asarray(self.stamp[0] + np.rint(between).astype(np.int64))
 
     @cached_property
-    def _since(self) -> NDArray[np.int64]:
+    def _elapsed_times(self) -> NDArray[np.int64]:
         return np.asarray(self.stamp - self.stamp[0])
 
 

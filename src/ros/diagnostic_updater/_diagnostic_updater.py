@@ -110,7 +110,7 @@ class DiagnosticTaskVector:
         self.lock = threading.Lock()
 
     def addedTaskCallback(self, task: DiagnosticTaskVector.DiagnosticTaskInternal) -> None:
-        """Do something with a task that was added. Subclasses may implement this method."""
+        """Handle a new task. Subclasses may override this method."""
 
     def add(self, *args: Any) -> None:
         """Add a task: `add(task)` or `add(name, function)`."""

@@ -10,8 +10,8 @@ from decimal import Context, Decimal
 from fractions import Fraction
 from typing import Final
 
-_TRUE: Final = {"y", "Y", "yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"}
-_FALSE: Final = {"n", "N", "no", "No", "NO", "false", "False", "FALSE", "off", "Off", "OFF"}
+_TRUE_WORDS: Final = {"y", "Y", "yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"}
+_FALSE_WORDS: Final = {"n", "N", "no", "No", "NO", "false", "False", "FALSE", "off", "Off", "OFF"}
 _SPECIAL_FLOATS: Final = {
     **dict.fromkeys((".nan", ".NaN", ".NAN"), math.nan),
     **{f"{sign}{word}": float(f"{sign}inf") for sign in ("", "+", "-") for word in (".inf", ".Inf", ".INF")},
@@ -31,8 +31,8 @@ _MAX_DIGITS: Final = 30  # of an integer with 64 bits, in any form
 
 def parse_scalar(text: str) -> bool | int | float | str:
     """Return the typed value of an unquoted word."""
-    if text in _TRUE or text in _FALSE:
-        return text in _TRUE
+    if text in _TRUE_WORDS or text in _FALSE_WORDS:
+        return text in _TRUE_WORDS
     number: float | None = _integer(text)
     if number is None:
         number = _SPECIAL_FLOATS[text] if text in _SPECIAL_FLOATS else _double(text)

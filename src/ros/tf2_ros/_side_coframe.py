@@ -60,7 +60,7 @@ def static_publisher(node: Node, topic: str, qos: QoSProfile) -> Any:
 
 
 def direct_sender(publisher: Any) -> tuple[Callable[[Any], bool], object]:
-    """Return a function that publishes transforms without a message object, and what `publisher.publish` must equal.
+    """Return a function that publishes transforms without a message object, and the expected `publisher.publish`.
 
     The function accepts a TransformStamped or a list of them. It returns False if it has published nothing, in which
     case a message must be published. Programs may replace `publish` in order to receive messages.
