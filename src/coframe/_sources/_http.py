@@ -343,7 +343,7 @@ class _Deadline:
         self.has_passed = False
         self._socket = sock
         self._start_response = time.monotonic()
-        self._received = 0
+        self._received_bytes = 0
         self._endless = size is None
         self._timer = threading.Timer(MAX_WAIT + (size or 0) / MIN_SPEED, self._pass)
         self._timer.daemon = True
@@ -351,8 +351,8 @@ class _Deadline:
 
     def add(self, received: int) -> None:
         """Count bytes; more of them permit more time."""
-        self._received += received
-        if time.monotonic() - self._start_response > MAX_WAIT + self._received / MIN_SPEED:
+        self._received_bytes += received
+        if time.monotonic() - self._start_response > MAX_WAIT + self._received_bytes / MIN_SPEED:
             self.has_passed = True
             raise TimeoutError
         if self._endless:

@@ -84,11 +84,11 @@ class StoreRanges(_Store):
         self.is_folder = info.get("type") == "directory"
         self.size = 0 if self.is_folder else self._size(info)
         self.version = _version(info)
-        self._checked = time.monotonic()
+        self._checked_at = time.monotonic()
 
     def read_range(self, start: int, end: int) -> bytes:
         """Return the bytes from ``start`` to ``end``."""
-        if time.monotonic() - self._checked > _CHECK_PERIOD:
+        if time.monotonic() - self._checked_at > _CHECK_PERIOD:
             self._check_version()
         data = self.read(start, end)
         if len(data) != end - start:
@@ -99,7 +99,7 @@ class StoreRanges(_Store):
         info = self.info()
         if _version(info) != self.version or self._size(info) != self.size:
             self._fail("it has changed since it was opened", "Open it again.", errno.ESTALE)
-        self._checked = time.monotonic()
+        self._checked_at = time.monotonic()
 
     def _size(self, info: dict[str, Any]) -> int:
         size = info.get("size")

@@ -168,7 +168,7 @@ class LivenessTracker:
         self._buffer = buffer
         self._clock = clock
         self._frames: Sequence[FrameInfo] = ()
-        self._newest: NDArray[np.int64] = np.zeros(0, np.int64)
+        self._newest_stamps: NDArray[np.int64] = np.zeros(0, np.int64)
         self._received_at: NDArray[np.int64] = np.zeros(0, np.int64)
         self._stale_limits: NDArray[np.float64] = np.zeros(0)  # inf: never stale
         self._has_known_period: NDArray[np.bool_] = np.zeros(
@@ -182,13 +182,13 @@ class LivenessTracker:
         Args:
             frames: All frames of the buffer in its order, from :meth:`coframe.Buffer.frames`.
         """
-        count, before = len(frames), len(self._newest)
+        count, before = len(frames), len(self._newest_stamps)
         newest = np.fromiter((frame.newest for frame in frames), np.int64, count)
         received = np.full(count, self._clock())
         limits = np.full(count, float(STALE_AFTER))
         known = np.zeros(count, bool)
         kept = min(count, before)
-        same = np.flatnonzero(newest[:kept] == self._newest[:kept])
+        same = np.flatnonzero(newest[:kept] == self._newest_stamps[:kept])
         for column, last in (
             (received, self._received_at),
             (limits, self._stale_limits),
@@ -198,7 +198,7 @@ class LivenessTracker:
         never = np.fromiter((frame.static or not frame.parent for frame in frames), bool, count)
         limits[never] = np.inf
         limits[~never & np.isinf(limits)] = STALE_AFTER  # these were static, or had no parent, at the last update
-        self._frames, self._newest, self._received_at, self._stale_limits, self._has_known_period = (
+        self._frames, self._newest_stamps, self._received_at, self._stale_limits, self._has_known_period = (
             frames,
             newest,
             received,

@@ -110,12 +110,12 @@ class Manifest:
         self._query = query_as_dict(query)
         unfinished = "It was not read, because the batch was interrupted."
         self._results = [QueryResult(bag, error=unfinished, reason="interrupted") for bag in bags]
-        self._written = -_PERIOD
+        self._written_at = -_PERIOD
 
     def add(self, number: int, result: QueryResult) -> None:
         """Store the result of a recording. The file is written periodically."""
         self._results[number] = result
-        if time.monotonic() - self._written > _PERIOD:
+        if time.monotonic() - self._written_at > _PERIOD:
             self.write()
 
     def write(self) -> None:
@@ -127,7 +127,7 @@ class Manifest:
         recordings = [{**each._asdict(), "omitted": [one._asdict() for one in each.omitted]} for each in self._results]
         content = {"query": self._query, "recordings": [_renamed_values(each) for each in recordings]}
         write_complete(self._path, json.dumps(content, indent=1).encode())
-        self._written = time.monotonic()
+        self._written_at = time.monotonic()
 
 
 def _renamed_values(values: dict[str, Any]) -> dict[str, Any]:

@@ -152,7 +152,7 @@ class Clouds:
         self._start, self._stop, self._only_at = start, stop, at
         self._deskews = deskew == "auto"
         self._time_field, self._time_unit = _field_and_unit(point_times)
-        self._fixed = fixed
+        self._fixed_frame = fixed
         self.fixed_given = fixed is not None
         self._period = round(usual_period(np.sort(self._stamps)))
         self._still_frames: dict[str, str | None] = {}
@@ -324,8 +324,8 @@ class Clouds:
 
     def _choose_fixed_frame(self, frame: str) -> str | None:
         """Return the frame that does not move during a sweep of this sensor, or None if nothing moves."""
-        if self._fixed is not None:
-            return self._fixed
+        if self._fixed_frame is not None:
+            return self._fixed_frame
         if frame not in self._still_frames:
             stamps = self._stamps[:: -(-len(self._stamps) // _MAX_COMPARED_STAMPS)]
             self._still_frames[frame] = still_frame(self._recording.buffer, self.frame, frame, stamps)

@@ -85,7 +85,7 @@ class ChunkReader:
         self._add = add
         self._progress = progress
         self._lock = threading.RLock()
-        self._read: set[tuple[int, int]] = set()  # chunks whose messages are in the index
+        self._read_positions: set[tuple[int, int]] = set()  # chunks whose messages are in the index
         self._complete: set[str] = set()  # topics
 
     def load(self, topics: Collection[str], start: int | None = None, stop: int | None = None) -> None:
@@ -100,7 +100,7 @@ class ChunkReader:
                 and (stop is None or chunk.listed.first < stop)
                 and chunk.has(channels)
             ]
-            self._add_chunks([chunk for chunk in chunks if chunk.key not in self._read])
+            self._add_chunks([chunk for chunk in chunks if chunk.key not in self._read_positions])
             if start is None and stop is None:
                 self._complete.update(wanted)
 
@@ -110,7 +110,7 @@ class ChunkReader:
             channels = self._channels([topic])
             for chunk in sorted(self._chunks, key=lambda each: each.listed.first):
                 if topic not in self._complete and chunk.has(channels):
-                    self._add_chunks([chunk] if chunk.key not in self._read else [])
+                    self._add_chunks([chunk] if chunk.key not in self._read_positions else [])
                     if any(track.received for track in self._index.tracks(topic)):
                         return
 
@@ -159,8 +159,8 @@ class ChunkReader:
                 for chunk in group:
                     for batch in chunk.storage.read_chunk(chunk.listed):
                         changed.add(batch.channel.topic)
-                        self._add(chunk.storage, batch, keep=chunk.key not in self._read, ingest=ingest)
-                    self._read.add(chunk.key)
+                        self._add(chunk.storage, batch, keep=chunk.key not in self._read_positions, ingest=ingest)
+                    self._read_positions.add(chunk.key)
                     done += chunk.size
                     self._progress(done, total)
         finally:

@@ -146,8 +146,8 @@ class Database:
         """Open the file again in a forked process, which must not use the connection of its parent."""
         if self._process != os.getpid():
             self._process = os.getpid()
-            self._inherited = self._connection  # Closing it would release the locks of the parent.
-            self._connect(*self._opened)
+            self._inherited_connection = self._connection  # Closing it would release the locks of the parent.
+            self._connect(*self._open_arguments)
 
     def _query(self, query: str, values: tuple[Any, ...] = (), steps: int | None = None) -> sqlite3.Cursor:
         self._check_process()
@@ -168,7 +168,7 @@ class Database:
             ) from error
 
     def _connect(self, path: Path, options: str) -> sqlite3.Connection:
-        self._opened = (path, options)
+        self._open_arguments = (path, options)
         connection = sqlite3.connect(f"{path.as_uri()}?{options}", uri=True, check_same_thread=False)
         self._connection = connection
         self._limit("LENGTH", min(MAX_UNPACKED_BYTES, max(self.size, MAX_SQL)))

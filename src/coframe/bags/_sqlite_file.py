@@ -62,7 +62,7 @@ class SqliteStorage(Storage):
         self._leaves: Leaves | None = None
         self._leaf_rows: dict[int, LeafRow] = {}  # the messages that were found without the tree, by row ID
         self._are_leaves_known = False
-        self._found = self._last_row = 0
+        self._found_count = self._last_row = 0
 
     def channels(self) -> list[Channel]:
         """Return the channels found so far."""
@@ -124,19 +124,18 @@ class SqliteStorage(Storage):
 
     def _report_missing(self, total: int) -> None:
         """Report how many messages are missing, of ``total`` ones, or 0 if that is not known."""
-        lost = max(total, self._last_row) - self._found
+        lost = max(total, self._last_row) - self._found_count
         missing = f"{count(lost, 'message')} of {total} missing" if total else f"{lost} missing before the last one"
         unknown = "" if total else "; how many come after it is unknown"
-        self.add_problem(
-            f"the database is damaged ({self._damage_reason}): {count(self._found, 'message')} read, {missing}{unknown}"
-        )
+        found = count(self._found_count, "message")
+        self.add_problem(f"the database is damaged ({self._damage_reason}): {found} read, {missing}{unknown}")
 
     def _note_damage(self, error: Exception) -> None:
         self._damage_reason = str(error)
         self._leaves = self._leaves or Leaves(self._path)
 
     def _note_rows(self, rows: list[tuple[Any, ...]]) -> None:
-        self._found += len(rows)
+        self._found_count += len(rows)
         self._last_row = max(self._last_row, rows[-1][0])
 
     def _recovered_channels(self) -> dict[int, Channel]:

@@ -45,7 +45,7 @@ class SqliteWriter:
         with _os_errors():
             self._database = sqlite3.connect(path, check_same_thread=False)
             self._database.executescript(_SCHEMA)
-        self._described: set[str] = set()  # the types whose definitions were written
+        self._described_types: set[str] = set()  # the types whose definitions were written
         self._written = 0
         self._pending: list[tuple[int, int, bytes]] = []
         self.pending = 0
@@ -80,8 +80,8 @@ class SqliteWriter:
             self._database.execute(
                 "INSERT INTO topics VALUES (?, ?, ?, ?, ?, '')", (len(self.counts), topic, ros_type, encoding, qos)
             )
-            if definition_format and ros_type not in self._described:
-                self._described.add(ros_type)
+            if definition_format and ros_type not in self._described_types:
+                self._described_types.add(ros_type)
                 self._database.execute(
                     "INSERT INTO message_definitions(topic_type, encoding, encoded_message_definition, "
                     "type_description_hash) VALUES (?, ?, ?, '')",

@@ -201,18 +201,18 @@ class _TrajectoryRun:
     def __init__(self, recording: Recording, query: TrajectoryQuery) -> None:
         self._recording = recording
         self._query = query
-        self._missing = 0
-        self._omitted: list[Omission] = []
+        self._missing_count = 0
+        self._omissions: list[Omission] = []
         self._gaps = ""
 
     def tables(self) -> Iterator[Any]:
         """Yield the poses as one table."""
         pyarrow = _pyarrow()
         wanted = self._query.stamps(self._recording)
-        poses, self._missing = self._query.run(self._recording)
+        poses, self._missing_count = self._query.run(self._recording)
         stamps = np.zeros(1, dtype=np.int64) if poses.stamps is None else np.atleast_1d(poses.stamps)
         name = f"{self._query.target}:{self._query.source}"
-        self._omitted = omissions_of(name, "no transform", ~np.isin(wanted, stamps), wanted)
+        self._omissions = omissions_of(name, "no transform", ~np.isin(wanted, stamps), wanted)
         self._gaps = self._query.gap_text(self._recording, stamps)
         values = np.concatenate([np.atleast_2d(poses.translation), np.atleast_2d(poses.quaternion)], axis=1)
         columns = {"bag": _bag_column(pyarrow, self._recording, len(values)), "stamp_ns": stamps}
@@ -224,7 +224,10 @@ class _TrajectoryRun:
         """Return the result."""
         problems = [*self._recording.problems, self._gaps] if self._gaps else self._recording.problems
         return QueryResult(
-            str(self._recording.path), missing=self._missing, problems=tuple(problems), omitted=tuple(self._omitted)
+            str(self._recording.path),
+            missing=self._missing_count,
+            problems=tuple(problems),
+            omitted=tuple(self._omissions),
         )
 
 
@@ -234,8 +237,8 @@ class _TableRun:
     def __init__(self, recording: Recording, query: TableQuery) -> None:
         self._recording = recording
         self._query = query
-        self._missing = 0
-        self._omitted: dict[str, list[Omission]] = {}
+        self._missing_count = 0
+        self._omissions: dict[str, list[Omission]] = {}
         self._sentences: list[str] = []
 
     def tables(self) -> Iterator[Any]:
@@ -247,7 +250,7 @@ class _TableRun:
             self._note(table)
             complete = np.logical_and.reduce([each.valid for each in table.columns])
             rows = table.taken(complete) if omits else table
-            self._missing += len(table) - len(rows)
+            self._missing_count += len(table) - len(rows)
             flat = rows.to_arrow(flat=True)
             yield flat.add_column(0, "bag", _bag_column(pyarrow, self._recording, len(rows)))
 
@@ -261,13 +264,13 @@ class _TableRun:
         for each in table.columns:
             reason = "no message within the limits" if each.gap is None else "no samples around it within the limits"
             new = omissions_of(each.name, reason, ~each.valid, table.stamps)
-            self._omitted[each.name] = [*self._omitted.get(each.name, ()), *new][:MAX_OMISSIONS]
+            self._omissions[each.name] = [*self._omissions.get(each.name, ()), *new][:MAX_OMISSIONS]
 
     def result(self) -> QueryResult:
         """Return the result."""
-        omitted = tuple(each for found in self._omitted.values() for each in found)
+        omitted = tuple(each for found in self._omissions.values() for each in found)
         problems = (*self._recording.problems, *self._sentences)
-        return QueryResult(str(self._recording.path), missing=self._missing, problems=problems, omitted=omitted)
+        return QueryResult(str(self._recording.path), missing=self._missing_count, problems=problems, omitted=omitted)
 
 
 def _pyarrow() -> Any:

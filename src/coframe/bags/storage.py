@@ -248,7 +248,7 @@ class ChunkedStorage(Storage):
         self._lock = threading.Lock()
         self._chunks: dict[int, int] = {}  # their numbers from 1, by their offsets in the file
         self._offsets: list[int] = []
-        self._counted: set[int] = set()  # offsets of chunks
+        self._counted_chunks: set[int] = set()  # offsets of chunks
         self._unpacked_bytes = 0
         self._unpacked_chunks: OrderedDict[int, bytes] = OrderedDict()
 
@@ -293,14 +293,14 @@ class ChunkedStorage(Storage):
         Raises:
             DamagedError: The chunks up to this one are larger than a plausible recording of this size.
         """
-        if offset in self._counted or size <= packed or size > MAX_UNPACKED_BYTES:
+        if offset in self._counted_chunks or size <= packed or size > MAX_UNPACKED_BYTES:
             return  # `unpack` rejects a chunk that is too large.
         budget = unpacked_budget(self.size)
         if self._unpacked_bytes + size > budget:
             raise DamagedError(
                 f"the chunks before it have {self._unpacked_bytes} unpacked bytes; the limit is {budget}"
             )
-        self._counted.add(offset)
+        self._counted_chunks.add(offset)
         self._unpacked_bytes += size
 
     def add_chunk(self, offset: int) -> int:

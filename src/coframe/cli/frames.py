@@ -121,7 +121,7 @@ def frames(
 
     Example: coframe frames run.mcap -o frames.svg
     """
-    files = [_checked_output(path) for path in output]
+    files = [_check_output(path) for path in output]
     if watching and (files or bag is not None):
         fail(f"--watch cannot be combined with {'--output' if files else 'a recording'}", code=2)
     with run_until_interrupted() if watching else run_to_completion():
@@ -160,7 +160,7 @@ def frames(
         _write_or_print({"": forest}, files, as_json, f"live on {config.tf_topic}")
 
 
-def _checked_output(path: Path) -> Path:
+def _check_output(path: Path) -> Path:
     """Return the path if its suffix is known and the package for its format is installed."""
     if path.suffix.lower() not in _FORMATS:
         fail(f"--output {path}: unknown suffix {path.suffix!r}. Suffixes: {', '.join(_FORMATS)}", code=2)

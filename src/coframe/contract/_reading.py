@@ -155,7 +155,7 @@ class _MappingReader:
         if not isinstance(data, dict):
             raise ContractError(f"{name}: {place or 'the document'} must be a mapping of keys to values")
         self._data: dict[Any, Any] = data
-        self._known: list[str] = []
+        self._known_keys: list[str] = []
 
     def error(self, key: str, reason: str) -> ContractError:
         """Return an error about the value of a key."""
@@ -165,15 +165,17 @@ class _MappingReader:
     def require_nothing_else(self) -> None:
         """Raise an error for the first key that was not taken."""
         for key in self._data:
-            if key not in self._known:
-                meant = did_you_mean(str(key), self._known) or f"The keys here are {join_quoted(self._known)}."
+            if key not in self._known_keys:
+                meant = (
+                    did_you_mean(str(key), self._known_keys) or f"The keys here are {join_quoted(self._known_keys)}."
+                )
                 raise ContractError(
                     f"{self._name}: {self._place or 'the document'} has an unknown key {key!r:.60}", hint=meant
                 )
 
     def take(self, key: str, kind: type[_Value], description: str, default: Any) -> Any:
         """Return the value of a key, or the default if it is missing."""
-        self._known.append(key)
+        self._known_keys.append(key)
         value = self._data.get(key)
         if value is None:
             return default

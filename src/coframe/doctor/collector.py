@@ -39,7 +39,7 @@ class Collector:
     """
 
     def __init__(self, renaming: _core.Renaming | None = None) -> None:
-        self._renamed = renaming or str
+        self._rename = renaming or str
         self.empty = 0
         self.damaged = 0
         self.ignored = 0
@@ -104,7 +104,7 @@ class Collector:
         """Return all rows in the order of arrival."""
         sent = tuple(self._names)
         return Transforms.join_batches(
-            [self._static.table(), self._dynamic_rows.table()], tuple(map(self._renamed, sent)), sent
+            [self._static.table(), self._dynamic_rows.table()], tuple(map(self._rename, sent)), sent
         )
 
     def publishers(self) -> set[str]:

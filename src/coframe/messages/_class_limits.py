@@ -40,7 +40,7 @@ class _Extents:
 
     def __init__(self, fields_of: Callable[[str], Iterable[AbstractType]]) -> None:
         self._fields_of = fields_of
-        self._known: dict[str, _Extent] = {}  # by message type
+        self._known_extents: dict[str, _Extent] = {}  # by message type
 
     def total(self, types: Iterable[AbstractType]) -> _Extent:
         """Return the extent of a message with fields of these types."""
@@ -66,9 +66,9 @@ class _Extents:
         return _Extent(_OBJECT + count * (_REFERENCE + inner.size), inner.fields, loops)
 
     def _extent_of_message(self, ros_type: str) -> _Extent:
-        if ros_type not in self._known:
-            self._known[ros_type] = self.total(self._fields_of(ros_type))
-        return self._known[ros_type]
+        if ros_type not in self._known_extents:
+            self._known_extents[ros_type] = self.total(self._fields_of(ros_type))
+        return self._known_extents[ros_type]
 
 
 def _slot_types(ros_type: str) -> Iterable[AbstractType]:

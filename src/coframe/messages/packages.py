@@ -131,28 +131,28 @@ def _find_line(field: str, text: str) -> int | None:
     return next((number for number, line in enumerate(text.splitlines(), 1) if word.search(line)), None)
 
 
-_found: dict[str, InterfacePackage | None] = {}
+_found_packages: dict[str, InterfacePackage | None] = {}
 
 
 def find_package(name: str) -> InterfacePackage | None:
     """Return the user's package with a name, otherwise coframe's, or None if neither exists."""
-    if name not in _found:
+    if name not in _found_packages:
         folder = sources.find_folder(name)
-        _found[name] = find_shipped(name) if folder is None else load_package(name, folder)
-    return _found[name]
+        _found_packages[name] = find_shipped(name) if folder is None else load_package(name, folder)
+    return _found_packages[name]
 
 
 def load_package(name: str, folder: Path) -> InterfacePackage:
     """Return the package in a folder, whose types are found by their names from now on."""
-    known = _found.get(name)
+    known = _found_packages.get(name)
     if known is None or known.folder != folder:
-        known = _found[name] = InterfacePackage(name, definitions_in(folder), folder)
+        known = _found_packages[name] = InterfacePackage(name, definitions_in(folder), folder)
     return known
 
 
 def forget() -> None:
     """Clear the cache of packages, because files or settings may have changed."""
-    _found.clear()
+    _found_packages.clear()
     sources.forget()
 
 

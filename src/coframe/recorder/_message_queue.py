@@ -60,23 +60,23 @@ class MessageQueue:
 
     def __init__(self, limit: int) -> None:
         self._limit = limit
-        self._changed = threading.Condition()
+        self._condition = threading.Condition()
         self._messages: deque[ReceivedMessage] = deque()
-        self._latched: deque[ReceivedMessage] = deque()
+        self._latched_messages: deque[ReceivedMessage] = deque()
         self._closed = False
         self.size = 0
         self.dropped: Counter[str] = Counter()
 
     def add_message(self, message: ReceivedMessage) -> None:
         """Add a message without waiting."""
-        with self._changed:
-            (self._latched if message.source.latched else self._messages).append(message)
+        with self._condition:
+            (self._latched_messages if message.source.latched else self._messages).append(message)
             self.size += _size(message)
-            while self.size > self._limit and len(self._messages) + len(self._latched) > 1:
-                oldest = (self._messages or self._latched).popleft()
+            while self.size > self._limit and len(self._messages) + len(self._latched_messages) > 1:
+                oldest = (self._messages or self._latched_messages).popleft()
                 self.size -= _size(oldest)
                 self.dropped[oldest.source.topic] += 1
-            self._changed.notify()
+            self._condition.notify()
 
     def take(self, timeout: float, limit: int) -> list[ReceivedMessage]:
         """Remove and return the oldest messages, in the order in which they were received.
@@ -89,12 +89,12 @@ class MessageQueue:
             The messages, or none after the timeout or if the queue is closed and empty.
         """
         deadline = time.monotonic() + timeout
-        with self._changed:
-            while not (self._messages or self._latched or self._closed):
+        with self._condition:
+            while not (self._messages or self._latched_messages or self._closed):
                 left = deadline - time.monotonic()
                 if left <= 0:
                     break
-                self._changed.wait(left)
+                self._condition.wait(left)
             taken: list[ReceivedMessage] = []
             while limit > 0 and (queue := self._queue_with_oldest()):
                 taken.append(queue.popleft())
@@ -105,20 +105,24 @@ class MessageQueue:
     @property
     def is_done(self) -> bool:
         """Whether the queue is closed and empty."""
-        with self._changed:
-            return self._closed and not (self._messages or self._latched)
+        with self._condition:
+            return self._closed and not (self._messages or self._latched_messages)
 
     def close(self) -> None:
         """Close the queue: no more messages are added."""
-        with self._changed:
+        with self._condition:
             self._closed = True
-            self._changed.notify_all()
+            self._condition.notify_all()
 
     def _queue_with_oldest(self) -> deque[ReceivedMessage]:
         """Return the queue whose first message is older, or an empty queue if both are empty."""
-        if not self._latched or not self._messages:
-            return self._latched or self._messages
-        return self._latched if self._latched[0].received <= self._messages[0].received else self._messages
+        if not self._latched_messages or not self._messages:
+            return self._latched_messages or self._messages
+        return (
+            self._latched_messages
+            if self._latched_messages[0].received <= self._messages[0].received
+            else self._messages
+        )
 
 
 def _size(message: ReceivedMessage) -> int:

@@ -56,7 +56,7 @@ class TopicFilter:
         self._types = set(types)
         self._all_services = services is True
         self._events = set() if isinstance(services, bool) else _events(services)
-        self._hidden = hidden
+        self._includes_hidden = hidden
         self._excluded_topics = {*map(absolute, exclude_topics), *_events(exclude_services)}
         self._excluded_types = set(exclude_types)
         self._is_selective = self._names is not None or bool(
@@ -70,7 +70,7 @@ class TopicFilter:
         if self._exclude_regex is not None and self._exclude_regex.fullmatch(topic):
             return False
         if not self._is_selective:
-            return self._hidden or _HIDDEN not in topic
+            return self._includes_hidden or _HIDDEN not in topic
         return (
             topic in (self._names or ())
             or topic in self._events

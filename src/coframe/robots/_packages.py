@@ -44,7 +44,7 @@ class Packages:
     ) -> None:
         self.description_path = None if description_path is None else resolved(description_path)
         self.folders = [Path(folder) for folder in folders]
-        self._found: dict[str, Path] = {}
+        self._found_folders: dict[str, Path] = {}
         self._crawled_packages: dict[tuple[Path, int], dict[str, Path]] = {}
 
     def find(self, name: str) -> Path:
@@ -53,15 +53,15 @@ class Packages:
         Raises:
             PackageError: The package is not found.
         """
-        if name not in self._found:
+        if name not in self._found_folders:
             try:
                 found = self._search(name)
             except PackageError:
                 if name not in _OWN_PACKAGES:
                     raise
                 found = _OWN_PACKAGES[name]
-            self._found[name] = share_of_source(found.resolve(), name)
-        return self._found[name]
+            self._found_folders[name] = share_of_source(found.resolve(), name)
+        return self._found_folders[name]
 
     def resolve(self, url: str) -> Path:
         """Return the file of a URL ``package://NAME/PATH`` or a relative path.

@@ -157,7 +157,7 @@ class _Rows:
     def __init__(self, file: Readable, kind: str | None) -> None:
         self._file = file
         self._kind = kind
-        self._named: Columns | None = None
+        self._named_columns: Columns | None = None
         self._columns: Columns | None = None  # None for KITTI
         self._cells = 0  # of a row
         self._times = _Times(1)
@@ -167,7 +167,7 @@ class _Rows:
     def add(self, line: int, text: str) -> None:
         """Add a line of the file, without spaces at its ends."""
         if not self._cells and self._kind != "kitti" and (named := self._header(line, text)) is not None:
-            self._named = named
+            self._named_columns = named
         elif text and not text.startswith("#"):
             self._add_row(line, text)
 
@@ -203,9 +203,9 @@ class _Rows:
         """Determine the format from the header line and the first row."""
         has_commas = not is_separated_by_spaces(text)
         self._cells = len(cells)
-        if self._named is not None and self._cells > max(self._named.stamp, *self._named.pose):
-            self._columns = self._named
-            self._times = _Times(self._named.unit or (None if has_commas else SECOND))
+        if self._named_columns is not None and self._cells > max(self._named_columns.stamp, *self._named_columns.pose):
+            self._columns = self._named_columns
+            self._times = _Times(self._named_columns.unit or (None if has_commas else SECOND))
             return
         kind = _layout(self._file, self._kind, self._cells, has_commas)
         if not kind:

@@ -46,7 +46,7 @@ def build_text_match(expected_text: Any, *, strict: bool = False) -> Callable[[s
     if callable(expected_text):
         return lambda text: (0, len(text)) if expected_text(text) else None
     raise ValueError(
-        "The expected output must be a text, a regular expression, a list of them or a function, not "
+        "The expected output must be a string, a regular expression, a list of them or a function, not "
         f"{expected_text!r}."
     )
 

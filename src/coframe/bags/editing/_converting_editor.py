@@ -37,9 +37,9 @@ class ConvertingSource(Source):
     def __init__(self, path: Path, types: RecordedTypes, problems: Problems, closing: ExitStack) -> None:
         self.recording = closing.enter_context(open_bag(path, transforms=False))
         self._problems = problems
-        self._converted: dict[Channel, tuple[Channel, Callable[[bytes], bytes]] | None] = {}
+        self._conversions: dict[Channel, tuple[Channel, Callable[[bytes], bytes]] | None] = {}
         for channel in self.recording.channels():
-            self._converted[channel] = self._conversion(channel, types)
+            self._conversions[channel] = self._conversion(channel, types)
 
     def _conversion(self, channel: Channel, types: RecordedTypes) -> tuple[Channel, Callable[[bytes], bytes]] | None:
         found: Conversion | None = cdr_conversion(channel, types)
@@ -66,7 +66,7 @@ class ConvertingSource(Source):
 
     def channels(self) -> list[Channel]:
         """Return all channels that can be written."""
-        return [found[0] for found in self._converted.values() if found is not None]
+        return [found[0] for found in self._conversions.values() if found is not None]
 
     def span(self) -> tuple[int, int] | None:
         """Return the first and last receive time."""
@@ -75,9 +75,9 @@ class ConvertingSource(Source):
 
     def messages(self, wanted: Callable[[Channel], bool]) -> Iterator[tuple[Channel, int, bytes]]:
         """Yield the messages of some channels in receive order."""
-        names = {found[0].topic for found in self._converted.values() if found is not None and wanted(found[0])}
+        names = {found[0].topic for found in self._conversions.values() if found is not None and wanted(found[0])}
         for channel, received, data in self.recording.in_order(sorted(names)):
-            found = self._converted.get(channel)
+            found = self._conversions.get(channel)
             if found is None or not wanted(found[0]):
                 continue
             try:
@@ -112,8 +112,8 @@ class ConvertingEditor:
         self._source = source
         self._writer = None if target is None else MCAP.create(target, compression or "zstd")
         self._pipeline = pipeline
-        self._inserted = inserted
-        self._edited = edited
+        self._inserted_messages = inserted
+        self._edited_file = edited
         self._numbers: dict[tuple[str, str], int] = {}
 
     def run(self, progress: Callable[[int], object]) -> None:
@@ -121,10 +121,10 @@ class ConvertingEditor:
         total = sum(topic.messages for topic in self._source.recording.topics.values())
         size = sum(size for _, size in self._source.recording.files)
         try:
-            for topic, data, received in self._inserted:
+            for topic, data, received in self._inserted_messages:
                 known = {self._pipeline.route(each).topic: each for each in self._source.channels()}
                 if topic not in known:
-                    self._edited.new_topics.append(topic)
+                    self._edited_file.new_topics.append(topic)
                 qos = to_yaml([OfferedQos(1, transient_local=True)])
                 definition = definition_of(TF_MESSAGE).encode()
                 channel = known.get(topic) or Channel(topic, TF_MESSAGE, "cdr", definition, "ros2msg", qos)
@@ -144,8 +144,8 @@ class ConvertingEditor:
                 self._writer.close()
 
     def _write(self, topic: str, channel: Channel, data: bytes, received: int) -> None:
-        self._edited.counts[topic] = self._edited.counts.get(topic, 0) + 1
-        self._edited.add_span(received, received)
+        self._edited_file.counts[topic] = self._edited_file.counts.get(topic, 0) + 1
+        self._edited_file.add_span(received, received)
         if self._writer is None:
             return
         key = (topic, channel.type)

@@ -78,9 +78,9 @@ class McapEditor:
         self._target = target
         self._pipeline = pipeline
         self._all = definitions
-        self._inserted = inserted
+        self._inserted_messages = inserted
         self._compression = None if compression is None else ("" if compression == "none" else compression)
-        self._edited = edited
+        self._edited_file = edited
         self._definitions = mcap.Definitions()
         self._routes: dict[int, Route] = {}
         self._editing: list[int] = []  # channels whose messages are edited or dropped
@@ -273,14 +273,14 @@ class McapEditor:
     def _count(self, records: IndexedRecords) -> None:
         if not len(records.times):
             return
-        self._edited.add_span(int(records.times.min()), int(records.times.max()))
+        self._edited_file.add_span(int(records.times.min()), int(records.times.max()))
         counts = np.bincount(records.channels)
         for number in np.flatnonzero(counts).tolist():
             self._counts[number] = self._counts.get(number, 0) + int(counts[number])
 
     def _insert(self, compression: str | None) -> None:
         """Write the messages to add, before the first message of the file: as a chunk, or as records if it has none."""
-        inserted, self._inserted = self._inserted, []
+        inserted, self._inserted_messages = self._inserted_messages, []
         if not inserted:
             return
         records = bytearray()
@@ -325,7 +325,7 @@ class McapEditor:
         qos = mcap.encoded_map({"offered_qos_profiles": to_yaml([OfferedQos(1, transient_local=True)])})
         channel = struct.pack("<HH", number, schema_number) + mcap.encoded_text(topic) + mcap.encoded_text("cdr") + qos
         self._schemas[schema_number], self._channels[number] = schema, channel
-        self._edited.new_topics.append(topic)
+        self._edited_file.new_topics.append(topic)
         return number, mcap.record(mcap.SCHEMA, schema) + mcap.record(mcap.CHANNEL, channel)
 
     def _copy_other(self, file: BinaryIO, opcode: int, length: int) -> None:
@@ -371,7 +371,7 @@ class McapEditor:
     def _finish(self) -> None:
         for number, count in self._counts.items():
             topic = self._channel_topic(number)
-            self._edited.counts[topic] = self._edited.counts.get(topic, 0) + count
+            self._edited_file.counts[topic] = self._edited_file.counts.get(topic, 0) + count
             if number in self._routes:
                 self._routes[number].count(count)
         self._out.finish(self._schemas.values(), self._channels.values(), self._make_statistics)
@@ -379,7 +379,7 @@ class McapEditor:
     def _make_statistics(self, attachments: int, metadata: int, chunks: int) -> bytes:
         """Return the content of the record of statistics."""
         total, numbers = sum(self._counts.values()), (len(self._schemas), len(self._channels))
-        times = self._edited.span or (0, 0)
+        times = self._edited_file.span or (0, 0)
         counts = b"".join(struct.pack("<HQ", *pair) for pair in sorted(self._counts.items()))
         head = struct.pack("<QHIIIIQQ", total, *numbers, attachments, metadata, chunks, *times)
         return head + struct.pack("<I", len(counts)) + counts

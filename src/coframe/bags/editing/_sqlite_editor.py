@@ -152,10 +152,10 @@ class SqliteEditor:
         self._source = source
         self._target = target
         self._pipeline = pipeline
-        self._inserted = inserted
-        self._edited = edited
+        self._inserted_messages = inserted
+        self._edited_file = edited
         self._routes: dict[int, Route] = {n: pipeline.route(each) for n, each in source.by_number.items()}
-        self._kept: dict[int, int] = dict.fromkeys(self._routes, 0)
+        self._kept_numbers: dict[int, int] = dict.fromkeys(self._routes, 0)
         self._pending: list[tuple[int, int, int, bytes]] = []
         self._pending_bytes = 0
 
@@ -182,14 +182,14 @@ class SqliteEditor:
         self._copy_rows("topics", [row for row in topics if row["name"] is not None])
         shift = self._insert()
         self._copy_messages(shift, progress)
-        for number, kept in self._kept.items():
+        for number, kept in self._kept_numbers.items():
             topic = self._routes[number].topic
             if topic is not None:
                 self._routes[number].count(kept)
-                self._edited.counts[topic] = self._edited.counts.get(topic, 0) + kept
+                self._edited_file.counts[topic] = self._edited_file.counts.get(topic, 0) + kept
         metadata = list(self._source.rows("metadata"))
         for row in metadata:
-            row["metadata"] = edit_text(str(row["metadata"]), self._pipeline, self._edited.counts)
+            row["metadata"] = edit_text(str(row["metadata"]), self._pipeline, self._edited_file.counts)
         self._copy_rows("metadata", metadata)
         self._out.execute("CREATE INDEX timestamp_idx ON messages (timestamp ASC)")
         self._out.commit()
@@ -202,9 +202,9 @@ class SqliteEditor:
     def _insert(self) -> int:
         """Write the messages to add, and return the offset to add to the numbers of the other rows."""
         first = self._source.database.first_row("messages")
-        for row, (topic, data, received) in enumerate(self._inserted, start=1):
+        for row, (topic, data, received) in enumerate(self._inserted_messages, start=1):
             self._add(row, self._number_of(topic), received, data)
-        return max(0, len(self._inserted) + 1 - first) if self._inserted and first is not None else 0
+        return max(0, len(self._inserted_messages) + 1 - first) if self._inserted_messages and first is not None else 0
 
     def _number_of(self, topic: str) -> int:
         """Return the number of a topic with TFMessages, which is added if the recording has none."""
@@ -230,8 +230,8 @@ class SqliteEditor:
             self._copy_rows("message_definitions", [{**row, "type_description_hash": ""}])
         self._source.by_number[number] = Channel(topic, TF_MESSAGE, "cdr")
         self._routes[number] = self._pipeline.unchanged(topic)
-        self._kept[number] = 0
-        self._edited.new_topics.append(topic)
+        self._kept_numbers[number] = 0
+        self._edited_file.new_topics.append(topic)
         return number
 
     def _copy_messages(self, shift: int, progress: Callable[[int], object]) -> None:
@@ -257,8 +257,8 @@ class SqliteEditor:
         self._flush()
 
     def _add(self, row: int, number: int, received: int, data: bytes) -> None:
-        self._kept[number] += 1
-        self._edited.add_span(received, received)
+        self._kept_numbers[number] += 1
+        self._edited_file.add_span(received, received)
         if self._target is None:
             return
         self._pending.append((row, number, received, data))

@@ -54,7 +54,9 @@ class FieldReader:
                 f"{label} has {len(found)} values; the limit is {MAX_LEAVES}", hint="Choose some of its fields."
             )
         self.leaves: list[Leaf] = [leaf for leaf, _ in found]
-        self._read: Callable[[Any], tuple[Any, ...]] = _leaves.reader([getter for _, getter in found], is_ros=is_ros)
+        self._read_values: Callable[[Any], tuple[Any, ...]] = _leaves.reader(
+            [getter for _, getter in found], is_ros=is_ros
+        )
 
     @property
     def has_elements(self) -> bool:
@@ -64,7 +66,7 @@ class FieldReader:
     def read(self, message: Any) -> tuple[Any, ...] | None:
         """Return the values in a message, None for those that do not exist, or None if none of them exists."""
         try:
-            return self._read(at_path(message, self._base))
+            return self._read_values(at_path(message, self._base))
         except MissingElementError:
             return None
 

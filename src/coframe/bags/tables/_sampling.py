@@ -69,13 +69,13 @@ class TopicReader:
             )
         self._order = np.argsort(stamps, kind="stable")
         self.samples = stamps[self._order]
-        self._decoded: set[int] = set()
-        self._damaged: set[int] = set()
+        self._decoded_rows: set[int] = set()
+        self._damaged_rows: set[int] = set()
 
     @property
     def damaged(self) -> int:
         """Number of messages that could not be decoded."""
-        return len(self._damaged)
+        return len(self._damaged_rows)
 
     @property
     def message_bytes(self) -> int:
@@ -105,7 +105,7 @@ class TopicReader:
         try:
             return None if found is None else found.message
         except DecodeError:
-            self._damaged.add(index)
+            self._damaged_rows.add(index)
             return None
 
 
@@ -135,20 +135,20 @@ class FieldColumn:
         first = messages.first()
         reader = FieldReader(label, source, first)
         names: dict[tuple[str, ...], list[str]] = {}
-        self._chosen = np.arange(len(messages.samples))  # the messages that have the element
+        self._chosen_rows = np.arange(len(messages.samples))  # the messages that have the element
         if reader.name_lists or reader.has_elements:
-            names, self._chosen = self._scan(reader)
+            names, self._chosen_rows = self._scan(reader)
         self._readers = {type(first): FieldReader(label, source, first, names)}
         self._names = names
         self.leaves = self._readers[type(first)].leaves
         if method == "interpolate":
             check_interpolation(label, self.leaves)
-        self._unusual_count, self._longest, self._rows = 0, 0, 0
+        self._unusual_count, self._longest_gap, self._rows = 0, 0, 0
 
     @property
     def samples(self) -> NDArray[np.int64]:
         """The stamps of the messages that have the element, sorted."""
-        return self.messages.samples[self._chosen]
+        return self.messages.samples[self._chosen_rows]
 
     @property
     def span(self) -> tuple[int, int] | None:
@@ -163,13 +163,13 @@ class FieldColumn:
             times: (N,) nanoseconds.
             rows: The messages at these times, if these are the stamps of its topic.
         """
-        every = len(self._chosen) == len(self.messages.samples)
+        every = len(self._chosen_rows) == len(self.messages.samples)
         if rows is not None and every and self._method != "interpolate":
             zero = np.zeros(len(times), np.int64)
             return MatchedRows(rows, rows, np.zeros(len(times)), np.ones(len(times), bool), zero, zero)
         found = pick(self.samples, times, self._method, self._tolerance, self._max_gap)
         self._count_unusual(found)
-        return found._replace(first=self._chosen[found.first], second=self._chosen[found.second])
+        return found._replace(first=self._chosen_rows[found.first], second=self._chosen_rows[found.second])
 
     def values(self, picks: MatchedRows, messages: Sequence[Any], indices: NDArray[np.intp]) -> TableColumn:
         """Return the column.
@@ -213,7 +213,7 @@ class FieldColumn:
         how = "are interpolated over gaps of up to" if self._method == "interpolate" else "come from messages up to"
         away = "" if self._method == "interpolate" else " away"
         covered = f"{self._unusual_count} of {count(self._rows, 'value')} of {self.label}"
-        return f"{covered} {how} {duration(self._longest)}{away}"
+        return f"{covered} {how} {duration(self._longest_gap)}{away}"
 
     def _count_unusual(self, picks: MatchedRows) -> None:
         limit = self._max_gap if self._method == "interpolate" else self._tolerance
@@ -223,7 +223,7 @@ class FieldColumn:
         distance = np.where(picks.valid, picks.gap if self._method == "interpolate" else np.abs(picks.age), 0)
         usual = usual_gap(usual_period(self.samples))
         self._unusual_count += int((distance > usual).sum())
-        self._longest = max(self._longest, int(distance.max(initial=0)))
+        self._longest_gap = max(self._longest_gap, int(distance.max(initial=0)))
 
     def _scan(self, reader: FieldReader) -> tuple[dict[tuple[str, ...], list[str]], NDArray[np.intp]]:
         """Return the names of elements in all messages, and the messages that have the element of the path."""

@@ -48,7 +48,7 @@ _EXAMPLES = (
 
 
 class Key(str):
-    """An index that is a name, such as that of a joint."""
+    """A name that is used as an index, such as the name of a joint."""
 
     __slots__ = ()
 

@@ -24,7 +24,7 @@ _MAX_TREES = 50  # Robots have fewer.
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """Yield one finding for every tree but the largest; one for all that no likely edge connects, if there are many."""
+    """Yield a finding for every tree except the largest. Many trees without a likely edge share one finding."""
     main, *others = observation.trees or [""]
     by_root: dict[str, list[Edge]] = {}
     for edge in observation.edges:

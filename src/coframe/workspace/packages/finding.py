@@ -133,10 +133,10 @@ def source_roots() -> list[Path]:
     return list(dict.fromkeys([*existing_folders(_SOURCES), *around]))
 
 
-_crawled: dict[Path, dict[str, Path]] = {}
+_crawled_folders: dict[Path, dict[str, Path]] = {}
 
 
 def _packages_below(folder: Path) -> dict[str, Path]:
-    if folder not in _crawled:
-        _crawled[folder] = by_name(list(crawl(folder, _MAX_DEPTH)))
-    return _crawled[folder]
+    if folder not in _crawled_folders:
+        _crawled_folders[folder] = by_name(list(crawl(folder, _MAX_DEPTH)))
+    return _crawled_folders[folder]

@@ -179,7 +179,7 @@ class _Check:
     """The check of an output, and the last assertion that has failed."""
 
     def __init__(self, read: Callable[[], bytes], validate: Callable[[str], Any]) -> None:
-        self._read = read
+        self._read_output = read
         self._validate = validate
         self._error: AssertionError | None = None
 
@@ -206,7 +206,7 @@ class _Check:
         raise AssertionError(f"timed out waiting for the output; it is {self._text()!r}")
 
     def _text(self) -> str:
-        return self._read().decode(errors="replace")
+        return self._read_output().decode(errors="replace")
 
 
 def _has_started(action: ExecuteProcess) -> Callable[[], bool]:

@@ -36,7 +36,7 @@ class Dedupe(Rule):
 
     def __init__(self, text: str = "") -> None:
         super().__init__(text)
-        self._seen: OrderedDict[Hashable, OrderedDict[Hashable, Hashable]] = OrderedDict()
+        self._seen_contents: OrderedDict[Hashable, OrderedDict[Hashable, Hashable]] = OrderedDict()
         self._different_count = 0
 
     def step(self, topic: EditedTopic) -> Step | None:
@@ -73,9 +73,9 @@ class Dedupe(Rule):
 
     def _is_new(self, key: Hashable, what: Hashable, value: Hashable) -> bool:
         """Store a message, and return whether it differs from all earlier messages."""
-        seen = self._seen.setdefault(key, OrderedDict())
-        if len(self._seen) > _MAX_EDGES:
-            self._seen.popitem(last=False)
+        seen = self._seen_contents.setdefault(key, OrderedDict())
+        if len(self._seen_contents) > _MAX_EDGES:
+            self._seen_contents.popitem(last=False)
         if what in seen:
             self._different_count += seen[what] != value
             return seen[what] != value

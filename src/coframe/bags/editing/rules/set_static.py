@@ -44,7 +44,7 @@ class SetStatic(Rule):
         super().__init__(text)
         words = split_words(text)
         self._set: dict[bytes, StaticTransform] = {}
-        self._missing: list[StaticTransform] = []
+        self._missing_transforms: list[StaticTransform] = []
         self._topic = TF_STATIC_TOPIC
         self._file: Path | None = None
         self._names: dict[str, str] = {}
@@ -73,9 +73,11 @@ class SetStatic(Rule):
                 self._add(one)
         known = survey.static_transforms()
         there = {one.child for one in known}
-        self._missing = [one for name, one in self._set.items() if name.decode() not in there]
+        self._missing_transforms = [one for name, one in self._set.items() if name.decode() not in there]
         topics = [name for name in survey.topics if name.rpartition("/")[2] == "tf_static"]
-        of_parent = [one.topic for one in known if {one.child, one.parent} & {new.parent for new in self._missing}]
+        of_parent = [
+            one.topic for one in known if {one.child, one.parent} & {new.parent for new in self._missing_transforms}
+        ]
         default = TF_STATIC_TOPIC if TF_STATIC_TOPIC in topics or len(topics) != 1 else topics[0]
         self._topic = of_parent[0] if of_parent else default
 
@@ -108,10 +110,10 @@ class SetStatic(Rule):
 
     def insertions(self) -> Iterator[Insertion]:
         """Yield the message with the transforms that the recording does not have."""
-        if self._missing:
-            self.changes += len(self._missing)
+        if self._missing_transforms:
+            self.changes += len(self._missing_transforms)
             added = [
                 RecordedTransform(0, one.parent.encode(), one.child.encode(), struct.pack("<7d", *one.pose))
-                for one in self._missing
+                for one in self._missing_transforms
             ]
             yield Insertion(self._topic, join_transforms(added, LITTLE_ENDIAN_HEADER))
