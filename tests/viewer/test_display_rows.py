@@ -423,7 +423,8 @@ KINDS = {
 
 
 def topic_of(ros_type):
-    return "/" + ros_type.rsplit("/", 1)[1].lower()
+    name = ros_type.rsplit("/", 1)[1].lower()
+    return f"/{name}/update" if name.startswith("interactive") else f"/{name}"
 
 
 @pytest.fixture(scope="module")

@@ -271,3 +271,18 @@ Visualization Manager:
     assert received["global"] == {"fixed_frame": None, "background": None, "frame_rate": None}
     assert received["view"] is None
     assert "Fixed Frame: map" in RvizConfig.parse(unusual).merged([], {"fixed_frame": "map"}, {}).text()
+
+
+def test_topics_with_keys_of_their_own_are_read_and_saved():
+    config = RvizConfig.parse("""
+Visualization Manager:
+  Displays:
+    - {Class: rviz_default_plugins/InteractiveMarkers, Name: grip, Enabled: true, Interactive Markers Namespace: /grip}
+    - {Class: rviz_default_plugins/DepthCloud, Name: depth, Enabled: true, Depth Map Topic: {Value: /depth/image}}
+""")
+    received = config.description()["displays"]
+    assert [one["topic"] for one in received] == ["/grip/update", "/depth/image"]
+    new = [{**one, "name": f"new {one['name']}", "source": None} for one in received]
+    saved = yaml.safe_load(config.merged([*received, *new], {}, {}).text())["Visualization Manager"]["Displays"]
+    assert [one["Interactive Markers Namespace"] for one in saved[::2]] == ["/grip", "/grip"]
+    assert [one["Depth Map Topic"]["Value"] for one in saved[1::2]] == ["/depth/image", "/depth/image"]

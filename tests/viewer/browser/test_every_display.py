@@ -228,6 +228,9 @@ def messages():
     compressed = make("sensor_msgs/msg/CompressedImage", "camera", format="16UC1; compressedDepth png")
     compressed.data = array("B", struct.pack("<iff", 0, 0.0, 0.0) + depth_png(DEPTHS))
     yield "image/compressedDepth", "Image", compressed, {"Width": 60}
+    video = make("sensor_msgs/msg/CompressedImage", "camera", format="h264")
+    video.data = array("B", b"\0\0\0\1\x67\x42\0\x1f" + b"\0\0\1\x65" + bytes(range(20)))
+    yield "image/video", "Image", video, {"Width": 60}
     info = make("sensor_msgs/msg/CameraInfo", "camera", width=8, height=6)
     info.k = [8.0, 0.0, 4.0, 0.0, 8.0, 3.0, 0.0, 0.0, 1.0]
     yield "depth/camera_info", "CameraInfo", info, {}
@@ -417,6 +420,14 @@ def test_images_of_every_encoding_have_their_values(shown, encoding):
     found = drawn(shown, f"image/e_{encoding}")
     assert (found["width"], found["height"], found["value"]) == (8, 6, IMAGES[encoding][1])
     shown.page.until(f"coframe.displays['image/e_{encoding}'].messages.at(-1)?.painted")
+
+
+def test_a_video_that_the_browser_cannot_decode_is_reported_in_one_sentence(shown):
+    status = shown.page.until(
+        "coframe.displays['image/video']?.state === 'error' && coframe.displays['image/video'].text"
+    )
+    assert "decode the video" in status
+    assert status.count(". ") == 0
 
 
 def test_depths_have_a_range_and_become_clouds(shown):

@@ -17,6 +17,7 @@ import { isRectangles } from "./boxes";
 import { MessageDisplay, type Context, type Display, type DisplayConfig } from "./display";
 import { ImageOverlay } from "./image_overlay";
 import { ImageZoom } from "./image_zoom";
+import { Video } from "./video";
 import { RangeFilter, rangeOf, toColors, valueAt, type Range } from "./pixel_window";
 import { cameraTopicOf, contentOf, isFrameAt } from "./projected_content";
 
@@ -36,6 +37,10 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
   private readonly layers = h("div", { class: "layers" }, this.canvas, this.marks);
   private readonly picture = h("div", { class: "picture" }, this.layers);
   private readonly zoom = new ImageZoom(this.picture, this.layers, () => this.updateCaption());
+  private readonly video = new Video(
+    (frame) => this.paintFrame(frame),
+    (text) => (this.status = { state: "error", text }),
+  );
   private readonly ranges = new RangeFilter();
   private range: Range = [0, 1];
   private normalized: Range = [0, 1];
@@ -82,6 +87,7 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
   override receive(message: DisplayMessage): void {
     super.receive(message);
     this.painted = -1;
+    if (message.kind === "image" && message.format === ImageFormat.video) this.video.feed(message.data);
   }
 
   override setPoses(framePoses: FramePoses, update: FrameUpdate): void {
@@ -214,6 +220,7 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
   }
 
   override dispose(): void {
+    this.video.close();
     this.figure.remove();
     super.dispose();
   }
@@ -234,6 +241,10 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
 
   private async paint(message: Image): Promise<void> {
     const { canvas } = this;
+    if (message.format === ImageFormat.video) {
+      this.shown = message;
+      return;
+    }
     try {
       const image = await this.decodeImage(message);
       if (message.sequence !== this.painted) return; // A newer message has arrived.
@@ -248,6 +259,17 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
       this.figure.hidden = true;
       this.status = { state: "error", text: "The browser cannot decode the image." };
     }
+  }
+
+  /** Paints a frame of a video. */
+  private paintFrame(frame: VideoFrame): void {
+    const { canvas } = this;
+    if (canvas.width !== frame.displayWidth || canvas.height !== frame.displayHeight)
+      [canvas.width, canvas.height] = [frame.displayWidth, frame.displayHeight];
+    canvas.getContext("2d")?.drawImage(frame, 0, 0);
+    frame.close();
+    if (this.painted >= 0) this.figure.hidden = false;
+    this.updateCaption();
   }
 
   private async decodeImage(message: Image): Promise<ImageData | ImageBitmap> {

@@ -191,8 +191,6 @@ class DisplayRow:
         projected: Whether its lines and meshes can be drawn above images.
         other_topics: Returns the further topics that a display of a topic needs, from the topic and its options.
         draws_without_messages: Whether it draws before the first message of its topic.
-        topic_key: The key in an .rviz file that contains the topic, or "" if it is one of the usual ones.
-        topic_suffix: What the topic has in addition to the name in an .rviz file.
         guide: What the display shows, for the table in the guide.
         lacks: The properties of RViz's display that it lacks, with the reason; "" if there are none.
     """
@@ -210,8 +208,6 @@ class DisplayRow:
     projected: bool = False
     other_topics: Callable[[str, DisplayOptions], tuple[str, ...]] = _no_topics
     draws_without_messages: bool = False
-    topic_key: str = ""
-    topic_suffix: str = ""
     guide: str = ""
     lacks: str = ""
 

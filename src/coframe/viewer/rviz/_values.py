@@ -26,8 +26,17 @@ __all__ = [
 OWN_KEYS = ("Class", "Name", "Enabled")
 """The keys of a display that are not options."""
 
-TOPIC_KEYS = ("Topic", "Description Topic", "Marker Topic", "Image Topic")
+NAMESPACE_KEY = "Interactive Markers Namespace"
+"""The key of InteractiveMarkers, whose topic is "update" in this namespace."""
+TOPIC_KEYS = ("Topic", "Description Topic", "Marker Topic", "Image Topic", "Depth Map Topic", NAMESPACE_KEY)
 """The keys under which RViz 2 and RViz 1 write the topic of a display."""
+
+_UPDATE = "/update"
+_KEYS_OF_CLASSES = {
+    "DepthCloud": "Depth Map Topic",
+    "InteractiveMarkers": NAMESPACE_KEY,
+    "RobotModel": "Description Topic",
+}
 
 
 def plain_class(name: Any) -> str:
@@ -41,7 +50,7 @@ def topic_of(display: Mapping[str, Any]) -> str | None:
         value = display.get(key)
         value = value.get("Value") if isinstance(value, dict) else value
         if isinstance(value, str) and value:
-            return value
+            return value.rstrip("/") + _UPDATE if key == NAMESPACE_KEY else value
     return None
 
 
@@ -49,9 +58,12 @@ def set_topic(display: dict[str, Any], topic: str, package: str) -> None:
     """Set the topic of a display or tool; that of a new one has the format of RViz 2 or, for "rviz", of RViz 1."""
     key = next((key for key in TOPIC_KEYS if key in display), None)
     if key is None:
-        key = "Description Topic" if plain_class(display.get("Class")) == "RobotModel" else "Topic"
+        key = _KEYS_OF_CLASSES.get(plain_class(display.get("Class")), "Topic")
         qos = {"Depth": 5, "Durability Policy": "Volatile", "History Policy": "Keep Last"}
-        display[key] = "" if package == "rviz" else {**qos, "Reliability Policy": "Reliable"}
+        is_text = package == "rviz" or key == NAMESPACE_KEY
+        display[key] = "" if is_text else {**qos, "Reliability Policy": "Reliable"}
+    if key == NAMESPACE_KEY:
+        topic = topic.removesuffix(_UPDATE)
     if isinstance(display[key], dict):
         display[key]["Value"] = topic
     else:

@@ -134,7 +134,6 @@ DEPTH_CLOUD = DisplayRow(
     automatic=False,
     large_in_replay=True,
     other_topics=_other_topics,
-    topic_key="Depth Map Topic",
     guide="Image or CompressedImage with depths, and the CameraInfo next to it, as a cloud; the colors of a raw Image",
     lacks="Auto Size and Occlusion Compensation; and the colors of a CompressedImage, which only a browser decodes",
 )

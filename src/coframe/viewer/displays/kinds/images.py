@@ -16,18 +16,22 @@ from coframe.time import stamp_ns
 from coframe.viewer.displays._drawing import CannotDrawError, Drawing, Options
 from coframe.viewer.displays._renderers import draw_each_message
 from coframe.viewer.displays._row import ChoiceOption, DisplayRow, FlagOption, NumberOption, Option
+from coframe.viewer.displays.kinds._video import VideoStream, codec_of
 from coframe.viewer.protocol.binary_messages import ImageFormat
 from coframe.viewer.protocol.encoding import encode_image
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from coframe.viewer.displays.resources import Resources
+    from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
+
 __all__ = ["CAMERA", "IMAGE", "draw_compressed_image", "draw_image"]
 
 MAX_COMPRESSED_PIXELS = 1 << 25  # A small file may need a lot of memory in the browser.
 MAX_COMPRESSED_BYTES = 16 << 20
 _FORMATS = {"uint8": ImageFormat.GRAY, "uint16": ImageFormat.GRAY16, "float32": ImageFormat.FLOAT}
-_COMPRESSED_FORMATS = "JPEG, PNG, compressedDepth"
+_COMPRESSED_FORMATS = "JPEG, PNG, compressedDepth, h264, h265"
 _JPEG, _PNG = b"\xff\xd8", b"\x89PNG\r\n\x1a\n"
 # JPEG markers without a length, and those of the frame headers that contain the image size.
 _MARKERS_WITHOUT_LENGTH = {0x01, *range(0xD0, 0xD9)}
@@ -114,6 +118,28 @@ def _size_of_jpeg(head: bytes) -> tuple[int, int]:
     raise CannotDrawError("the JPEG data contains no image size")
 
 
+class CompressedImageRenderer:
+    """Draws compressed images: each by itself, or as a part of a video."""
+
+    def __init__(self, messages: TopicMessages, options: Options, _resources: Resources) -> None:
+        self._options = options
+        self._video = VideoStream(messages, options)
+
+    def draw(self, message: StampedMessage, time: int, at: int) -> list[Drawing]:
+        """Return the drawing of the message."""
+        del time, at
+        image = message.read()
+        codec = codec_of(image.format)
+        if codec is not None:
+            return [self._video.draw(message, image, codec)]
+        return [draw_compressed_image(image, self._options)]
+
+    def has_changed(self, time: int, at: int) -> bool:
+        """Return False."""
+        del time, at
+        return False
+
+
 def _options(*, project: bool) -> tuple[Option, ...]:
     needs = "Project"
     return (
@@ -134,14 +160,15 @@ def _options(*, project: bool) -> tuple[Option, ...]:
 
 _GUIDE = (
     "Image with one to four channels of 8 or 16 bits or floating-point numbers (mono, rgb, bgr, Bayer, yuv422, nv12, "
-    "nv21, depths), CompressedImage as JPEG, PNG or compressedDepth (PNG, RVL); values have a normalized range; the "
+    "nv21, depths), CompressedImage as JPEG, PNG, compressedDepth (PNG, RVL), or h264 and h265 if the browser decodes "
+    "them; values have a normalized range; the "
     "wheel zooms, dragging pans, and the pointer shows the value of a pixel"
 )
 
 IMAGE = DisplayRow(
     name="Image",
     messages={
-        "sensor_msgs/msg/CompressedImage": draw_each_message(draw_compressed_image),
+        "sensor_msgs/msg/CompressedImage": CompressedImageRenderer,
         "sensor_msgs/msg/Image": draw_each_message(draw_image),
     },
     options=_options(project=False),

@@ -220,8 +220,6 @@ INTERACTIVE_MARKERS = DisplayRow(
     ),
     shapes=(InteractiveShape,),
     draws_without_messages=True,
-    topic_key="Interactive Markers Namespace",
-    topic_suffix="/update",
     guide=(
         "InteractiveMarkerUpdate and InteractiveMarkerInit: controls of all modes are dragged, buttons clicked and "
         "menus opened with the left or right button; InteractiveMarkerFeedback is published"
