@@ -98,6 +98,7 @@ export function showPage(source: MessageSource): void {
     ...(source.live
       ? [{ key: "R", shown: "Shift r", text: "Reset: start again without the data received so far", act: reset }]
       : []),
+    { key: "y", text: "Go to a time, bookmarks", act: () => timeline.showTimes() },
     { key: "o", text: "Loop", act: () => timeline.toggleLoop() },
     { key: "t", text: "Rates over time", act: () => timeline.toggleSparklines() },
     { key: "a", text: "Show everything", act: () => view.fit() },

@@ -167,3 +167,35 @@ def test_a_recording_starts_paused_and_can_be_viewed_at_any_time(shared, view, o
             page.assert_equals_buffer(recording.buffer)
         page.key("Space")
         page.until("time => coframe.time > time", page.evaluate("coframe.time"))
+
+
+def test_the_timeline_zooms_goes_to_times_and_keeps_bookmarks(counted):
+    page = counted
+    page.click("#time")
+    page.raw.fill("dialog.times input[aria-label=Time]", "4.5")
+    page.raw.press("dialog.times input[aria-label=Time]", "Enter")
+    page.until("Math.abs(coframe.frames.base.position[0] - 45) < 0.1")
+    page.key("y")
+    page.raw.fill("dialog.times input[aria-label=Time]", "soon")
+    page.raw.press("dialog.times input[aria-label=Time]", "Enter")
+    page.wait(lambda: "is not a time" in page.text("#toasts"), "the reason")
+    page.raw.fill("dialog.times input[aria-label='Name of the bookmark']", "spike")
+    page.raw.press("dialog.times input[aria-label='Name of the bookmark']", "Enter")
+    page.wait(lambda: page.texts("#bookmarks button:text('spike')"), "the bookmark")
+    page.key("Escape")
+
+    # Around 4.5 s, zoomed in by 1.25 ** 10, the timeline shows a tenth of its span.
+    box = page.raw.locator("#timeline .scrub canvas").bounding_box()
+    page.raw.mouse.move(box["x"] + 0.45 * box["width"], box["y"] + box["height"] / 2)
+    for _ in range(10):
+        page.raw.mouse.wheel(0, -100)
+    page.raw.wait_for_timeout(100)
+    page.scrub(0.98)
+    page.settle()
+    assert 48 < x_of(page) < 52, "a click moves by less than a second"
+    page.key("y")
+    page.click("#bookmarks button:text('spike')")
+    page.until("Math.abs(coframe.frames.base.position[0] - 45) < 0.1")
+    page.raw.mouse.dblclick(box["x"] + 0.1 * box["width"], box["y"] + box["height"] / 2)
+    page.scrub(0.98)
+    page.until("coframe.frames.base.position[0] > 95")

@@ -7,17 +7,23 @@ import type { Model } from "../model/model";
 import type { Timeline as TimelineMessage } from "../protocol/messages";
 import { bars, decodeEdges, drawRows, prepare, total, type Colors, type Edge } from "./sparklines";
 import { remember, remembered } from "../util/storage";
+import { TimesDialog } from "./times";
 
 const SPEEDS = ["0.1", "0.25", "0.5", "1", "2", "5", "10"] as const;
 const REQUEST_INTERVAL_MS = 2000;
 const BINS = 240;
+const MIN_ZOOM_NS = 1e6;
+const ZOOM = 1.25;
 
 export class Timeline {
   private readonly play: HTMLButtonElement;
   private readonly live: HTMLButtonElement;
   private readonly loop: HTMLButtonElement;
   private readonly sparklinesButton: HTMLButtonElement;
-  private readonly time = h("span", { class: "time numbers", id: "time" });
+  private readonly time = h("button", { type: "button", class: "time numbers", id: "time" });
+  private readonly times: TimesDialog;
+  /** The part of the span that is shown after zooming; null for all of it. */
+  private zoomed: [number, number] | null = null;
   private readonly canvas = h("canvas", {
     tabindex: "0",
     role: "slider",
@@ -43,6 +49,9 @@ export class Timeline {
     private readonly model: Model,
     reset: (() => void) | null,
   ) {
+    this.times = new TimesDialog(model, (at) => this.seek(at));
+    this.times.onChange(() => this.redraw());
+    this.time.addEventListener("click", () => this.times.show());
     this.play = iconButton("pause", "Pause or play (Space)", () => this.toggle());
     this.live = h(
       "button",
@@ -108,6 +117,30 @@ export class Timeline {
     this.model.step(direction);
   }
 
+  /** Opens the dialog to go to a time, and for bookmarks. */
+  showTimes(): void {
+    this.times.show();
+  }
+
+  /** The span that the timeline shows. */
+  private get shown(): [number, number] | null {
+    const { span } = this.model;
+    return this.zoomed && span && !this.model.clock.live ? this.zoomed : span;
+  }
+
+  /** Shows a larger or smaller part of the span around a time. */
+  private zoom(at: number, factor: number): void {
+    const [span, shown] = [this.model.span, this.shown];
+    if (!span || !shown || this.model.clock.live) return;
+    const from = Math.max(span[0], at - (at - shown[0]) * factor);
+    const to = Math.min(span[1], at + (shown[1] - at) * factor);
+    if (to - from < MIN_ZOOM_NS) return;
+    this.zoomed = from <= span[0] && to >= span[1] ? null : [from, to];
+    this.requested = 0;
+    this.redraw();
+    this.follow();
+  }
+
   /** Moves the playhead by seconds. */
   jump(seconds: number): void {
     const at = this.model.playhead;
@@ -131,6 +164,7 @@ export class Timeline {
   private start(): void {
     const { hello } = this.model;
     this.message = null;
+    this.zoomed = null;
     const recorded = hello?.mode === "recording" || hello?.mode === "replay";
     this.live.hidden = recorded;
     const [span, at] = [hello?.span, this.model.playhead];
@@ -158,10 +192,13 @@ export class Timeline {
     const span = this.model.span;
     if (!update || !span) return;
     const now = performance.now();
-    const current = this.message?.revision === this.model.forest.revision;
-    if (now - this.requested > REQUEST_INTERVAL_MS && span[1] > span[0] && (this.model.clock.live || !current)) {
+    const [from, to] = this.shown ?? span;
+    const { message } = this;
+    const isShown = this.zoomed === null || (message?.from === Math.round(from) && message.to === Math.round(to));
+    const current = message?.revision === this.model.forest.revision && isShown;
+    if (now - this.requested > REQUEST_INTERVAL_MS && to > from && (this.model.clock.live || !current)) {
       this.requested = now;
-      this.model.send({ type: "timeline", from: span[0], to: span[1], bins: BINS });
+      this.model.send({ type: "timeline", from: Math.round(from), to: Math.round(to), bins: BINS });
     }
     setText(this.time, format.stamp(this.model.origin, update.time));
     this.time.title = `${format.offset(update.time - span[0])} of ${format.offset(span[1] - span[0])}`;
@@ -169,10 +206,11 @@ export class Timeline {
   }
 
   private placePlayhead(): void {
-    const span = this.model.span;
+    const span = this.shown;
     const at = this.dragging ?? this.model.frameUpdate?.time ?? NaN;
     const part = span && span[1] > span[0] ? (at - span[0]) / (span[1] - span[0]) : NaN;
-    this.playhead.hidden = !Number.isFinite(part) && !this.model.clock.live;
+    const isOutside = this.zoomed !== null && !(part >= 0 && part <= 1);
+    this.playhead.hidden = (!Number.isFinite(part) || isOutside) && !this.model.clock.live;
     const shown = this.model.clock.live ? 1 : Math.max(0, Math.min(1, part));
     this.playhead.style.left = `${(shown * 100).toFixed(3)}%`;
     if (!span || !Number.isFinite(part)) return;
@@ -216,7 +254,7 @@ export class Timeline {
     this.placePlayhead();
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement ?? this.canvas;
     const context = prepare(this.canvas, width, height);
-    const span = this.model.span;
+    const span = this.shown;
     if (!context || width === 0) return;
     const colors = this.colors();
     context.fillStyle = getComputedStyle(document.documentElement).getPropertyValue("--raised");
@@ -229,6 +267,7 @@ export class Timeline {
       context.fillStyle = `${colors.bar}33`;
       context.fillRect(x(loop[0]), 0, Math.max(1, x(loop[1]) - x(loop[0])), height);
     }
+    for (const { at } of this.times.bookmarks) drawMark(context, colors.text, x(at));
     if (!this.sparklines.hidden && this.message)
       drawRows(this.rows, this.edges, this.message, this.model.forest, colors);
   }
@@ -258,12 +297,29 @@ export class Timeline {
   private listen(): void {
     const { canvas } = this;
     const timeAt = (event: PointerEvent): number | null => {
-      const span = this.model.span;
+      const span = this.shown;
       if (!span) return null;
       const bounds = canvas.getBoundingClientRect();
       const part = Math.max(0, Math.min(1, (event.clientX - bounds.left) / bounds.width));
       return span[0] + part * (span[1] - span[0]);
     };
+    canvas.addEventListener(
+      "wheel",
+      (event) => {
+        const bounds = canvas.getBoundingClientRect();
+        const span = this.shown;
+        if (!span) return;
+        event.preventDefault();
+        const at = span[0] + ((event.clientX - bounds.left) / bounds.width) * (span[1] - span[0]);
+        this.zoom(at, event.deltaY < 0 ? 1 / ZOOM : ZOOM);
+      },
+      { passive: false },
+    );
+    canvas.addEventListener("dblclick", () => {
+      this.zoomed = null;
+      this.requested = 0;
+      this.redraw();
+    });
     canvas.addEventListener("pointerdown", (event) => {
       const at = timeAt(event);
       if (at === null) return;
@@ -300,4 +356,14 @@ export class Timeline {
 function resetButton(reset: () => void): HTMLElement {
   const title = "Reset (Shift r): start again without the data received so far";
   return h("button", { type: "button", class: "small", title, id: "reset", on: { click: reset } }, "Reset");
+}
+
+/** Draws a bookmark: a triangle at the upper edge. */
+function drawMark(context: CanvasRenderingContext2D, color: string, x: number): void {
+  context.fillStyle = color;
+  context.beginPath();
+  context.moveTo(x - 5, 0);
+  context.lineTo(x + 5, 0);
+  context.lineTo(x, 8);
+  context.fill();
 }
