@@ -351,11 +351,24 @@ void define_writer(nb::module_& module) {
   define_endpoint<Writer>(writer);
 }
 
+// Calls `use` with up to `limit` messages, oldest first. Fast DDS provides fewer of them at once.
+template <class Use>
+void take_all(Holder<Reader>& self, std::uint32_t limit, Use&& use) {
+  bool may_have_more = true;
+  while (may_have_more && limit > 0) {
+    OutsideGil<Reader::Taken> taken(*self.native, limit);
+    taken->each([&](const Message& message) {
+      --limit;
+      use(message);
+    });
+    may_have_more = taken->full();
+  }
+}
+
 nb::list take(Holder<Reader>& self, std::uint32_t limit, nb::handle codec) {
   void* native_codec = codec.is_none() ? nullptr : native(core->codec, codec);
   nb::list list;
-  OutsideGil<Reader::Taken> taken(*self.native, limit);
-  taken->each([&](const Message& message) {
+  take_all(self, limit, [&](const Message& message) {
     nb::object decoded = nb::none();
     if (native_codec != nullptr) {
       decoded = nb::steal(core->decode(native_codec, message.bytes.data(), message.bytes.size()));
@@ -373,8 +386,7 @@ std::int64_t sequence_of(const rtps::SampleIdentity& identity) {
 
 nb::list take_identified(Holder<Reader>& self, std::uint32_t limit) {
   nb::list list;
-  OutsideGil<Reader::Taken> taken(*self.native, limit);
-  taken->each([&](const Message& message) {
+  take_all(self, limit, [&](const Message& message) {
     list.append(nb::make_tuple(to_bytes(message.bytes), message.sent, message.writer,
                                to_bytes(message.identity.writer_guid()), sequence_of(message.identity),
                                to_bytes(message.related.writer_guid()), sequence_of(message.related)));

@@ -103,9 +103,10 @@ void DataReader::leave() noexcept {
 
 void DataReader::destroy(dds::DataReader* reader) noexcept {
   subscriber_->delete_datareader(reader);
-  participant_->forget_reader(topic_, own_key());
-  participant_->return_topic(topic_, type_);
-  participant_->remove_own(participant_->readers(), guid_);
+  const std::shared_ptr<Participant> participant = std::exchange(participant_, nullptr);
+  participant->forget_reader(topic_, own_key());
+  participant->return_topic(topic_, type_);
+  participant->remove_own(participant->readers(), guid_);
 }
 
 void DataReader::withdraw_blocks(dds::DataReader& reader) {

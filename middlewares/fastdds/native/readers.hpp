@@ -54,6 +54,7 @@ class Batch {
       const auto found = messages_.find(i);
       if (found == messages_.end() && BlockMap::is_reference(samples_[i])) continue;
       const Incoming bytes = found == messages_.end() ? samples_[i] : found->second.bytes();
+      if (bytes.empty()) continue;  // from Writer::write_nothing
       if (bytes.size() < kHeaderSize) {
         ++ignored_;
         continue;
@@ -139,7 +140,7 @@ class DataReader : protected dds::DataReaderListener {
     events_.add_total(StatusEvents::kSampleLost, status);
   }
 
-  const std::shared_ptr<Participant> participant_;
+  std::shared_ptr<Participant> participant_;  // null after the end of the reader
   const std::string topic_, type_;
   StatusEvents events_;
   std::string user_data_;  // without what says that blocks can be read
@@ -169,6 +170,8 @@ class Reader final : public DataReader {
     void each(Use&& use) {
       if (batch_) batch_->each(use);
     }
+    // Whether more messages may be waiting.
+    bool full() const { return batch_ && batch_->full(); }
 
    private:
     Access access_;

@@ -88,8 +88,9 @@ void Writer::close() noexcept {
   dds::DataWriter* writer = std::exchange(writer_, nullptr);
   writer->set_listener(nullptr);
   publisher_->delete_datawriter(writer);
-  participant_->return_topic(topic_, type_);
-  participant_->remove_own(participant_->writers(), guid_);
+  const std::shared_ptr<Participant> participant = std::exchange(participant_, nullptr);
+  participant->return_topic(topic_, type_);
+  participant->remove_own(participant->writers(), guid_);
   const std::lock_guard blocks_lock(blocks_mutex_);
   blocks_.reset();
 }

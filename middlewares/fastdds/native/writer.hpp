@@ -61,7 +61,7 @@ class Writer final : dds::DataWriterListener {
   // Waits until the readers have finished with the messages in blocks. Returns false after the timeout.
   bool wait_for_blocks(std::int64_t timeout_ns) const;
 
-  const std::shared_ptr<Participant> participant_;
+  std::shared_ptr<Participant> participant_;  // null after close()
   const std::string topic_, type_;
   const bool checks_transforms_;
   const bool shares_blocks_;

@@ -156,7 +156,7 @@ class _ServiceReader(native.Reader):
         """Return up to `limit` messages in the header form: bytes, time of publication, the writer's handle."""
         messages = []
         for data, sent, handle, guid, sequence, related, related_sequence in self.take_identified(limit):
-            if data and (message := self._read(data, guid, sequence, related, related_sequence)) is not None:
+            if (message := self._read(data, guid, sequence, related, related_sequence)) is not None:
                 messages.append((message, sent, handle))
         return messages
 
