@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the nodes of a process cost each other: the number of messages about them and of calls of the middleware."""
 
 import contextlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Security that ROS 2's environment variables request, on middlewares without it."""
 
 import logging
