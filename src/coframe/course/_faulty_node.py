@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import copy
 import importlib
+import itertools
 import math
 import sys
 import time
@@ -21,6 +22,7 @@ __all__ = ["main"]
 _DELAY = 60.0  # seconds
 _OFFSET = 5  # seconds
 _DROPOUT, _PERIOD = 1.0, 4.0  # seconds
+_JUMP, _JUMP_PERIOD = 0.5, 40  # meters and messages
 
 
 def _start_late(_module: Any) -> None:
@@ -161,21 +163,23 @@ def _hang_arm_on_itself(_module: Any) -> None:
     _change_transforms(close)
 
 
-def _delay_scans(module: Any) -> None:
-    publish = module.SimulatedLidar.publish_scan
+def _turn_in_degrees(transform: Any) -> None:
+    half = 90.0 / 2.0
+    turned = transform.transform.rotation
+    turned.y, turned.w = math.sin(half), math.cos(half)
 
-    def publish_late(self: Any) -> None:
-        send = self.scan_pub.publish
 
-        def send_old(scan: Any) -> None:
-            scan.header.stamp.sec -= _OFFSET
-            send(scan)
+def _jump(_module: Any) -> None:
+    messages = itertools.count(1)
 
-        self.scan_pub.publish = send_old
-        publish(self)
-        self.scan_pub.publish = send
+    def jump(transforms: list[Any]) -> list[Any]:
+        if next(messages) % _JUMP_PERIOD == 0:
+            for each in transforms:
+                if each.child_frame_id == "link1":
+                    each.transform.translation.y += _JUMP
+        return transforms
 
-    module.SimulatedLidar.publish_scan = publish_late
+    _change_transforms(jump)
 
 
 def _stop_lidar(module: Any) -> None:
@@ -203,7 +207,8 @@ _FAULTS: dict[str, Callable[[Any], None]] = {
     "sign": _change_angles(lambda q1, q2: (-q1, -q2)),
     "exchanged joints": _change_angles(lambda q1, q2: (q2, q1)),
     "loop": _hang_arm_on_itself,
-    "old scans": _delay_scans,
+    "mount in degrees": _change_camera(_turn_in_degrees),
+    "jumps": _jump,
     "silent lidar": _stop_lidar,
 }
 
