@@ -7,6 +7,7 @@ import json
 import shlex
 import sys
 import threading
+import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -45,7 +46,8 @@ if TYPE_CHECKING:
 
 __all__ = ["lab"]
 
-_FIRST_OUTPUT = 8.0  # seconds within which each program should have published something
+# Each program should have published something within this time after the last node joined, in seconds.
+_FIRST_OUTPUT, _MAX_STARTUP = 8.0, 60.0
 _HANDBOOK_WIDTH = 120  # columns: longer lines are hard to read
 folder_argument = argument(
     "folder",
@@ -404,12 +406,13 @@ def _run(
 
     with connect("coframe_lab") as ros, optional_viewer(ros, port, browser=browser), running(programs, write):
         if names_silent and (seconds is None or seconds > _FIRST_OUTPUT):
+            started = time.monotonic()
             first = FirstOutput(ros, programs)
-            closed.wait(_FIRST_OUTPUT)
+            first.wait(closed, _FIRST_OUTPUT, _MAX_STARTUP if seconds is None else min(seconds, _MAX_STARTUP))
             for name, sentence in first.missing():
                 write(name, sentence)
             first.close()
-            seconds = None if seconds is None else seconds - _FIRST_OUTPUT
+            seconds = None if seconds is None else max(0.0, seconds - (time.monotonic() - started))
         closed.wait(seconds)
     if closed.is_set():
         raise BrokenPipeError

@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+import time
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.messages import find
 
 if TYPE_CHECKING:
+    import threading
     from collections.abc import Callable, Iterable, Iterator
     from typing import Any
 
@@ -15,6 +17,8 @@ if TYPE_CHECKING:
     from coframe.course.running import NamedCommand
 
 __all__ = ["FirstOutput"]
+
+_PERIOD = 0.2  # seconds between two looks
 
 
 class _Output(NamedTuple):
@@ -52,6 +56,22 @@ class FirstOutput:
         """Destroy the subscriptions."""
         for subscription in self._subscriptions:
             subscription.close()
+
+    def wait(self, closed: threading.Event, seconds: float, at_most: float) -> None:
+        """Wait until all programs have published, or for some time after the last node has joined the graph.
+
+        On a busy machine, programs need a while to start.
+
+        Args:
+            closed: Ends the wait when it is set.
+            seconds: The time after the last node has joined, in seconds.
+            at_most: The maximum time, in seconds.
+        """
+        end = time.monotonic() + at_most
+        nodes, deadline = len(self._ros.participant.nodes()), end
+        while time.monotonic() < min(deadline, end) and any(self.missing()) and not closed.wait(_PERIOD):
+            if nodes != (found := len(self._ros.participant.nodes())):
+                nodes, deadline = found, time.monotonic() + seconds
 
     def missing(self) -> Iterator[tuple[str, str]]:
         """Yield the name of each program that has not published anything, and a message about it."""
