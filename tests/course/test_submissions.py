@@ -270,9 +270,9 @@ def test_criteria_that_are_done_count_when_the_time_is_over(folder, monkeypatch)
     monkeypatch.setattr(checking, "time", Clock(over))
     report = check_folder(folder, only=("static", "dynamic", "urdf"), progress=lambda done: done and over.append(1))
     assert [(each["earned"], each["points"]) for each in report["criteria"]] == [(20, 20), (0, 25), (0, 10)]
-    assert report["criteria"][1]["problem"] == "Not checked: the check took more than 400 s."
+    assert report["criteria"][1]["problem"] == "Not checked: the check took more than 1200 s."
     assert report["notices"][-1].endswith(
-        "before these criteria: Dynamic transforms, Extension: URDF. The points before them count."
+        "These criteria were not checked: Dynamic transforms, Extension: URDF. The other points count."
     )
     assert report["variant"] is None
 
