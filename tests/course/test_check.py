@@ -96,7 +96,9 @@ def test_stubs_run_and_one_sentence_for_each_says_what_is_missing(tmp_path):
     report = check_folder(tmp_path / "lab")
     assert (report["variant"], report["earned"], report["bonus"]) == (7, 0, 0)
     for criterion in report["criteria"]:
-        assert re.search("publishes nothing|does not describe any joints yet", criterion["problem"]), criterion["problem"]
+        assert re.search("publishes nothing|does not describe any joints yet", criterion["problem"]), criterion[
+            "problem"
+        ]
     printed = "\n".join(formats.text(report))
     assert "RViz configuration does not show the robot yet" in printed
     assert "expected:" not in printed
