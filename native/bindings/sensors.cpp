@@ -140,8 +140,8 @@ bool py_unfilter_png(nb::handle rows, nb::handle pixels, std::size_t row_bytes, 
   if (filtered.size() != height * (row_bytes + 1)) throw nb::value_error("each row must begin with its filter");
   bool valid = false;
   without_gil_if(true, [&] {
-    valid = unfilter_png(filtered.data<const std::uint8_t>(), target.data<std::uint8_t>(), height, row_bytes,
-                         pixel_bytes);
+    valid =
+        unfilter_png(filtered.data<const std::uint8_t>(), target.data<std::uint8_t>(), height, row_bytes, pixel_bytes);
   });
   return valid;
 }
