@@ -9,6 +9,7 @@ import pytest
 import yaml
 
 import coframe
+from coframe.viewer.rviz._defaults import DISPLAY_DEFAULTS, VIEW_DEFAULTS
 from coframe.viewer.rviz.config import RvizConfig
 
 SECOND = 1_000_000_000
@@ -286,3 +287,161 @@ Visualization Manager:
     saved = yaml.safe_load(config.merged([*received, *new], {}, {}).text())["Visualization Manager"]["Displays"]
     assert [one["Interactive Markers Namespace"] for one in saved[::2]] == ["/grip", "/grip"]
     assert [one["Depth Map Topic"]["Value"] for one in saved[1::2]] == ["/depth/image", "/depth/image"]
+
+
+def nested_mapping(paths):
+    """Return a mapping from paths such as "Shape/Color"."""
+    result = {}
+    for path, value in paths.items():
+        *outer, last = path.split("/")
+        at = result
+        for part in outer:
+            at = at.setdefault(part, {})
+        at[last] = value
+    return result
+
+
+def varied(value):
+    """Return another value of the same kind."""
+    if isinstance(value, bool):
+        return not value
+    if isinstance(value, int | float):
+        return value + 0.25
+    return "12; 34; 56" if value.count(";") == 2 else f"other {value}"
+
+
+def full_file(change=lambda value: value):
+    """Return a document with every display and view of RViz, each with all its properties."""
+    displays = []
+    for number, (name, defaults) in enumerate(DISPLAY_DEFAULTS.items()):
+        options = nested_mapping({path: change(value) for path, value in defaults.items()})
+        display = {"Class": f"rviz_default_plugins/{name}", "Enabled": bool(number % 3), "Name": f"{name} {number}"}
+        topic = {
+            "Depth": 7,
+            "History Policy": "Keep Last",
+            "Reliability Policy": "Best Effort",
+            "Value": f"in/{number}",
+        }
+        displays.append({**display, **options, "Topic": topic, "Value": bool(number % 3)})
+    inner = {"Class": "rviz_common/Group", "Displays": displays[3:6], "Enabled": True, "Name": "Inner"}
+    outer = {"Class": "rviz_common/Group", "Displays": [*displays[1:3], inner], "Enabled": False, "Name": "Outer"}
+    views = [
+        {"Class": f"rviz_default_plugins/{name}", **nested_mapping({k: change(v) for k, v in options.items()})}
+        for name, options in VIEW_DEFAULTS.items()
+    ]
+    tools = ["Interact", "MoveCamera", "Select", "FocusCamera", "Measure", "SetInitialPose", "SetGoal", "PublishPoint"]
+    return {
+        "Panels": [
+            {"Class": f"rviz_common/{name}", "Name": name, "Splitter Ratio": 0.5} for name in ("Displays", "Time")
+        ],
+        "Visualization Manager": {
+            "Class": "",
+            "Displays": [displays[0], outer, *displays[6:]],
+            "Enabled": True,
+            "Global Options": {"Background Color": "48; 48; 48", "Fixed Frame": "map", "Frame Rate": 29.97},
+            "Name": "root",
+            "Tools": [{"Class": f"rviz_default_plugins/{name}", "Topic": {"Value": "here"}} for name in tools],
+            "Views": {"Current": views[0], "Saved": views[1:]},
+        },
+        "Window Geometry": {"Height": 846, "QMainWindow State": "000000ff", "Value": float("inf")},
+    }
+
+
+def saved(config, description, **changed):
+    """Return the document after saving what a page would send."""
+    options = {"fixed_frame": description["global"]["fixed_frame"], **changed.get("global_", {})}
+    view, tools = description["view"], description["tools"]
+    merged = config.merged(description["displays"], options, view, tools, description["groups"])
+    return yaml.safe_load(merged.text())
+
+
+@pytest.mark.parametrize("change", [lambda value: value, varied], ids=["defaults", "varied"])
+def test_saving_an_unchanged_file_changes_nothing(change):
+    document = full_file(change)
+    config = RvizConfig.parse(yaml.safe_dump(document))
+    assert saved(config, config.description()) == document
+    assert yaml.safe_load(config.merged(config.description()["displays"], {}, {}).text()) == document
+
+
+def test_defaults_of_rviz_are_not_listed_as_ignored():
+    assert RvizConfig(full_file()).description()["ignored"] == []
+
+
+def test_options_tools_and_panels_without_effect_are_listed_by_name():
+    document = full_file()
+    manager = document["Visualization Manager"]
+    robot = next(one for one in manager["Displays"] if one["Name"].startswith("RobotModel"))
+    robot["Mass Properties"] = {"Inertia": False, "Mass": True}
+    robot["Links"] = {"arm": {"Alpha": 1, "Show Trail": True, "Value": True}}
+    manager["Tools"].append({"Class": "nav2_rviz_plugins/GoalTool"})
+    document["Panels"].append({"Class": "slam_toolbox::SlamToolboxPlugin", "Name": "SlamToolboxPlugin"})
+    manager["Views"]["Current"]["Invert Z Axis"] = True
+    ignored = RvizConfig(document).description()["ignored"]
+    assert {(part["name"], part["value"]) for part in ignored} == {
+        ("Mass Properties/Mass", "True"),
+        ("Links/arm/Show Trail", "True"),
+        ("GoalTool", "nav2_rviz_plugins/GoalTool"),
+        ("SlamToolboxPlugin", "slam_toolbox::SlamToolboxPlugin"),
+        ("Invert Z Axis", "True"),
+    }
+
+
+def changed_paths(before, after, path=""):
+    if isinstance(before, dict) and isinstance(after, dict):
+        keys = [*before, *(key for key in after if key not in before)]
+        found = [changed_paths(before.get(key), after.get(key), f"{path}/{key}") for key in keys]
+        return [one for part in found for one in part]
+    if isinstance(before, list) and isinstance(after, list) and len(before) == len(after):
+        found = [
+            changed_paths(*pair, f"{path}/{number}") for number, pair in enumerate(zip(before, after, strict=True))
+        ]
+        return [one for part in found for one in part]
+    return [] if before == after else [path]
+
+
+def test_saving_changes_only_what_the_user_changed():
+    document = full_file(varied)
+    config = RvizConfig.parse(yaml.safe_dump(document))
+    shown = config.description()
+    named = {one["name"].split(" ")[0]: one for one in shown["displays"]}
+    named["Odometry"]["options"]["Shape"]["Color"] = "1; 2; 3"
+    named["Odometry"]["options"]["Covariance"]["Position"]["Alpha"] = 0.75
+    named["LaserScan"]["topic"] = "/elsewhere"
+    shown["groups"][0]["enabled"] = True
+    shown["view"]["options"]["Yaw"] = 1.5
+    found = changed_paths(document, saved(config, shown, global_={"frame_rate": 15}))
+    names = ["Odometry", "LaserScan"]
+    displays = document["Visualization Manager"]["Displays"]
+    odometry, scan = (next(i for i, one in enumerate(displays) if one["Name"].startswith(name)) for name in names)
+    root = "/Visualization Manager"
+    assert set(found) == {
+        f"{root}/Displays/{odometry}/Shape/Color",
+        f"{root}/Displays/{odometry}/Covariance/Position/Alpha",
+        f"{root}/Displays/{scan}/Topic/Value",
+        f"{root}/Displays/1/Enabled",
+        f"{root}/Views/Current/Yaw",
+        f"{root}/Global Options/Frame Rate",
+    }
+
+
+def test_displays_in_disabled_groups_are_not_shown_and_keep_their_flags():
+    document = full_file()
+    config = RvizConfig(document)
+    shown = {one["name"]: one for one in config.description()["displays"]}
+    inside = document["Visualization Manager"]["Displays"][1]["Displays"][-1]["Displays"]
+    known = [one for one in inside if one["Name"] in shown]
+    assert known
+    for display in known:
+        assert shown[display["Name"]]["enabled"] is False
+        assert shown[display["Name"]]["checked"] is display["Enabled"]
+
+
+def test_old_flat_options_of_odometry_are_read_and_nested():
+    flat = {"Class": "rviz_default_plugins/Odometry", "Name": "O", "Shape": "Axes", "Color": "1; 2; 3", "Keep": 5}
+    config = RvizConfig({"Visualization Manager": {"Displays": [flat]}})
+    (shown,) = config.description()["displays"]
+    assert shown["options"]["Shape"] == {"Value": "Axes", "Color": "1; 2; 3"}
+    shown["options"]["Shape"]["Value"] = "Arrow"
+    (written,) = yaml.safe_load(config.merged([shown], {}, {}).text())["Visualization Manager"]["Displays"]
+    assert written["Shape"] == "Arrow"
+    assert written["Keep"] == 5

@@ -16,7 +16,7 @@ from rich.text import Text
 from coframe._process.keys import keys
 from coframe.cli.declaration import PASS_ARGUMENTS_ON, PATH, Command, argument
 from coframe.cli.lifecycle import run_until_interrupted
-from coframe.cli.node_arguments import reported_node_errors, xacro_arguments
+from coframe.cli.node_arguments import reported_node_errors, ros_arguments, xacro_arguments
 from coframe.cli.options import (
     domain_option,
     listener_options,
@@ -115,7 +115,10 @@ def joints(
         if sources:
             values["source_list"] = sources
         overrides = [Parameter(name, value=value) for name, value in values.items()]
-        with reported_node_errors(), _running_node(["coframe", *words], robot, domain, overrides) as running:
+        with (
+            reported_node_errors(),
+            _running_node(["coframe", *ros_arguments(words)], robot, domain, overrides) as running,
+        ):
             if gui:
                 config = ListenerConfig.of(
                     domain=domain, tf_topic=tf_topic, tf_static_topic=tf_static_topic, prefix=prefix, keep=keep

@@ -11,7 +11,7 @@ from coframe.cli.output import fail
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["reported_node_errors", "xacro_arguments"]
+__all__ = ["reported_node_errors", "ros_arguments", "xacro_arguments"]
 
 
 @contextlib.contextmanager
@@ -23,6 +23,18 @@ def reported_node_errors() -> Iterator[None]:
         yield
     except NODE_ERRORS as error:
         fail(str(error), code=2)
+
+
+def ros_arguments(words: list[str]) -> list[str]:
+    """Return the parts ``--ros-args ... --`` of arguments. The node would take others for remapping rules."""
+    found: list[str] = []
+    inside = False
+    for word in words:
+        inside = inside or word == "--ros-args"
+        if inside:
+            found.append(word)
+        inside = inside and word != "--"
+    return found
 
 
 def xacro_arguments(words: list[str]) -> dict[str, str]:

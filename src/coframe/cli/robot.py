@@ -9,7 +9,7 @@ import click
 
 from coframe.cli.declaration import PASS_ARGUMENTS_ON, PATH, Command, argument
 from coframe.cli.lifecycle import run_until_interrupted
-from coframe.cli.node_arguments import reported_node_errors, xacro_arguments
+from coframe.cli.node_arguments import reported_node_errors, ros_arguments, xacro_arguments
 from coframe.cli.options import (
     domain_option,
     keep_option,
@@ -76,4 +76,4 @@ def robot(
         overrides = [Parameter(name, value=value) for name, value in parameters.items()]
         remaps = ["--ros-args", "-r", f"/tf:={tf_topic}", "-r", f"/tf_static:={tf_static_topic}"]
         with reported_node_errors():
-            run(["coframe", *context.args, *remaps], domain_id=domain, parameter_overrides=overrides)
+            run(["coframe", *ros_arguments(context.args), *remaps], domain_id=domain, parameter_overrides=overrides)

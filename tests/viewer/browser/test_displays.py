@@ -157,7 +157,7 @@ def write_obj(path):
 
 
 def write_dae(path):
-    """Write a COLLADA file whose material uses a texture in the same folder."""
+    """Write a COLLADA file with a texture in the same folder, and the transparency that old exporters write."""
     corners = " ".join(f"{value}" for value in TETRAHEDRON.ravel())
     indices = " ".join(f"{corner} 0" for face in FACES for corner in face)
     path.write_text(f"""<?xml version="1.0"?>
@@ -167,7 +167,9 @@ def write_dae(path):
   <library_effects><effect id="e"><profile_COMMON>
     <newparam sid="su"><surface type="2D"><init_from>i</init_from></surface></newparam>
     <newparam sid="sa"><sampler2D><source>su</source></sampler2D></newparam>
-    <technique sid="t"><lambert><diffuse><texture texture="sa" texcoord="UV"/></diffuse></lambert></technique>
+    <technique sid="t"><lambert><diffuse><texture texture="sa" texcoord="UV"/></diffuse>
+      <transparent><color>1 1 1 1</color></transparent><transparency><float>0</float></transparency>
+    </lambert></technique>
   </profile_COMMON></effect></library_effects>
   <library_materials><material id="m"><instance_effect url="#e"/></material></library_materials>
   <library_geometries><geometry id="g"><mesh>
@@ -266,6 +268,7 @@ def test_a_robot_from_a_file_is_drawn_with_its_meshes_and_moved_by_sliders(crane
     page.until(f"{ROBOT}?.visible && {ROBOT}.loading === 0 && {ROBOT}.state === 'ok'")
     page.until(f"{ROBOT}.textures === 3")
     assert page.evaluate(f"{ROBOT}.meshes") == 5
+    assert page.evaluate(f"{ROBOT}.opacity") == 1, "RViz draws all COLLADA materials opaque"
     robot = coframe.robots.load(crane)
     assert_link_poses(page, robot, {})
     page.tab("joints")

@@ -35,6 +35,8 @@ export class Displays {
   private readonly listeners: (() => void)[] = [];
   /** Whether the displays are those of an .rviz file. */
   private fromFile = false;
+  /** The filters of the TF display that the model uses. */
+  private filters = JSON.stringify(["", ""]);
   private nextId = 1;
   /** Whether new topics are displayed automatically, until the user or a file changes the list. */
   private automatic = true;
@@ -383,6 +385,11 @@ export class Displays {
       arrows: options.flag("Show Arrows"),
       names: options.flag("Show Names"),
     };
+    const filters = JSON.stringify([options.text("Filter (whitelist)"), options.text("Filter (blacklist)")]);
+    if (filters !== this.filters) {
+      this.filters = filters;
+      this.model.setFilter(tf.filter());
+    }
     this.view.framePoses.frameTimeout = options.number("Frame Timeout");
     this.sendTimeout();
   }

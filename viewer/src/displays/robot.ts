@@ -80,8 +80,10 @@ export class RobotDisplay extends Display<"RobotModel"> {
   override probe(): Record<string, unknown> {
     let meshes = 0;
     let textures = 0;
+    let opaque = 1;
     this.model.traverse((part) => {
       meshes += (part as Partial<THREE.Mesh>).isMesh ? 1 : 0;
+      for (const { opacity } of materialsOf(part)) opaque = Math.min(opaque, opacity);
       for (const { map } of materialsOf(part) as THREE.MeshPhongMaterial[]) textures += map && hasImage(map) ? 1 : 0;
     });
     const visible = this.model.visible && this.object.visible;
@@ -90,6 +92,7 @@ export class RobotDisplay extends Display<"RobotModel"> {
       robot: this.robot?.name ?? null,
       meshes,
       textures,
+      opacity: opaque,
       loading: this.loading,
       stale: [...this.stale],
       visible,

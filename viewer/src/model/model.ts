@@ -188,6 +188,7 @@ export class Model extends Emitter<ModelEvents> {
   invalidMessages = 0;
   /** The last seek that is not yet visible in frame updates: its time, and when it was requested. */
   private seek: { at: number; since: number } | null = null;
+  private passesFilter: (name: string) => boolean = () => true;
   private soloShown = new Set<string>();
 
   constructor(readonly send: (message: ClientMessage) => void) {
@@ -219,7 +220,14 @@ export class Model extends Emitter<ModelEvents> {
   }
 
   isShown(name: string): boolean {
-    return this.solo === null ? !this.hidden.has(name) : this.soloShown.has(name);
+    if (this.solo !== null) return this.soloShown.has(name);
+    return !this.hidden.has(name) && this.passesFilter(name);
+  }
+
+  /** Shows only frames for which the function returns true, in addition to what the user hides. */
+  setFilter(passes: (name: string) => boolean): void {
+    this.passesFilter = passes;
+    this.emit("visibility", undefined);
   }
 
   setHidden(names: string[], hidden: boolean): void {

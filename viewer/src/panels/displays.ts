@@ -5,7 +5,7 @@ import { MessageDisplay, type Display } from "../displays/display";
 import type { Displays } from "../displays/manager";
 import { MarkersDisplay } from "../displays/markers";
 import { rvizColor } from "../displays/options";
-import { DISPLAYS, FIXED_FRAME, type OptionSpec } from "../generated/displays";
+import { DISPLAYS, type OptionSpec } from "../generated/displays";
 import { AddDisplay } from "./add_display";
 import { fillSelect, h, iconButton, setText, shorten } from "../util/dom";
 import type { Model } from "../model/model";
@@ -305,7 +305,7 @@ export class DisplaysPanel {
         return field(label, input);
       }
       case "text": {
-        const input = h("input", { type: "text", aria: { label }, placeholder: spec.value || FIXED_FRAME });
+        const input = h("input", { type: "text", aria: { label }, placeholder: spec.value });
         input.value = options.textOf(spec);
         input.addEventListener("change", () => change(input.value.trim() || spec.value));
         return field(label, input);

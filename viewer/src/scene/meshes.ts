@@ -144,6 +144,7 @@ async function parseFormat(
     case "dae": {
       const document = new DOMParser().parseFromString(text(bytes, name), "application/xml");
       refuse(colladaProblem(document), name);
+      makeOpaque(document);
       const source = new XMLSerializer().serializeToString(document);
       const scene = new ColladaLoader(manager).parse(source, folder)?.scene;
       if (!scene) throw new MeshError(`${short(name)} is not a COLLADA file.`);
@@ -157,6 +158,15 @@ async function parseFormat(
     default:
       throw new MeshError(`${short(name)} has an unsupported format. Supported formats: STL, DAE, OBJ, GLB and glTF.`);
   }
+}
+
+/**
+ * Removes the transparency of materials, as RViz ignores it: old exporters write 0 for opaque surfaces, which means
+ * invisible by the specification.
+ */
+function makeOpaque(document: Document): void {
+  for (const name of ["transparent", "transparency"])
+    for (const element of [...document.getElementsByTagName(name)]) element.remove();
 }
 
 /** Parses an OBJ file with its material library, if it exists. */

@@ -220,6 +220,8 @@ async def _publish(client: ClientState, topic: str, publish: Callable[[ToolPubli
         subscribers = await _in_background(client, publish, tools)
     except (ViewerError, WireError) as error:
         raise BadRequestError(f"nothing was published: {error}", error.hint) from None
+    if topic:  # The displays of the page also subscribe, but do not act on the message.
+        subscribers = min(subscribers, client.viewer.source.other_subscriptions(topic))
     return PublishResult(type="published", topic=topic or client.viewer.static_topic, subscribers=subscribers)
 
 

@@ -116,10 +116,12 @@ def update(target: dict[str, Any], options: Any) -> None:
     """
     if not isinstance(options, dict):
         return
-    for key, value in options.items():
+    for key, given in options.items():
         if key in OWN_KEYS:
             continue
         earlier = target.get(key)
+        is_plain = earlier is not None and isinstance(given, dict) and given.keys() == {"Value"}
+        value = given["Value"] if is_plain else given
         if not isinstance(value, dict):
             if isinstance(earlier, dict):
                 earlier["Value"] = value

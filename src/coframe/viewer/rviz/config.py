@@ -219,8 +219,9 @@ class RvizConfig:
             groups: The groups whose flags may have changed, as in `description`.
         """
         changed = RvizConfig(copy.deepcopy(self._document))
-        changed._merge_groups(groups)
+        found = [one for one in _displays(changed._manager) if one.plain_class == "Group"]  # Places before any removal.
         changed._merge_displays(displays)
+        _merge_groups(found, groups)
         changed._merge_global(options)
         changed._merge_view(view)
         merge_tools(changed._manager, tools, changed._package)
@@ -261,13 +262,6 @@ class RvizConfig:
             for name, view in described
             if plain_class(view.get("Class")) in VIEW_CLASSES
         ]
-
-    def _merge_groups(self, groups: Sequence[RvizGroup]) -> None:
-        shown = {group["source"]: group for group in groups}
-        for found in list(_displays(self._manager)):
-            group = shown.get(found.source)
-            if found.plain_class == "Group" and group is not None and group["enabled"] != found.is_checked:
-                _set_enabled(found.display, enabled=group["enabled"])
 
     def _merge_displays(self, displays: Sequence[RvizDisplay]) -> None:
         remaining = [found for found in _displays(self._manager) if found.plain_class in DISPLAYS]
@@ -350,6 +344,15 @@ def _described_group(found: _Found) -> RvizGroup:
 def _described_view(view: Mapping[str, Any]) -> RvizView:
     options = plain({key: value for key, value in view.items() if key != "Class"})
     return {"class": plain_class(view.get("Class")), "options": options}
+
+
+def _merge_groups(groups: Sequence[_Found], shown: Sequence[RvizGroup]) -> None:
+    """Write the flags of groups that the page has changed."""
+    by_source = {group["source"]: group for group in shown}
+    for found in groups:
+        group = by_source.get(found.source)
+        if group is not None and group["enabled"] != found.is_checked:
+            _set_enabled(found.display, enabled=group["enabled"])
 
 
 def _match(shown: RvizDisplay, by_source: Mapping[str, _Found], remaining: Sequence[_Found]) -> _Found | None:

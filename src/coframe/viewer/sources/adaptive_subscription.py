@@ -69,6 +69,11 @@ class AdaptiveSubscription:
             left, self._remaining_samples = self._remaining_samples, []
             return [*left, *self._take(transient_local=True), *self._take(transient_local=False)]
 
+    @property
+    def guids(self) -> set[bytes]:
+        """The identifiers of its endpoints."""
+        return {subscription.guid for subscription in list(self._open.values())}
+
     def close(self) -> None:
         """Unsubscribe from the topic."""
         with self._lock:

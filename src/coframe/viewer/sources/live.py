@@ -33,6 +33,7 @@ _WINDOW = 10 * SECOND
 _FIRST_REPORT, _REPORT_PERIOD = 5.0, 2.0
 # The maximum share of a processor for the doctor's reports, not counting its subscriptions.
 _SHARE = 0.01
+DOCTOR_NODE = "coframe_view_doctor"
 _DAY = 24 * 60 * MINUTE
 # How long messages are kept if the buffer has no cache length.
 _KEEP_IF_UNLIMITED = MINUTE
@@ -124,6 +125,12 @@ class LiveSource:
         """Return the time of the monotonic clock in nanoseconds, without pauses of a simulation."""
         return self._sim_time.running()
 
+    def other_subscriptions(self, topic: str) -> int:
+        """Return the number of subscriptions to a topic without those of the viewer and its doctor."""
+        own = {guid for subscription in list(self._subscriptions) for guid in subscription.guids}
+        found = self._connection.participant.subscribers(topic)
+        return sum(one.guid not in own and one.node != DOCTOR_NODE for one in found)
+
     def examine(self) -> Generator[dict[str, Report] | None, None, None]:
         """Return a generator of reports on the last ten seconds, as `coframe doctor --watch` prints them.
 
@@ -136,7 +143,7 @@ class LiveSource:
         from coframe.doctor.observation import DEFAULT_CACHE  # noqa: PLC0415
 
         config = self._connection.config.with_cache(DEFAULT_CACHE)
-        with LiveObserver(config, window=_WINDOW, node_name="coframe_view_doctor") as observer:
+        with LiveObserver(config, window=_WINDOW, node_name=DOCTOR_NODE) as observer:
             due = time.monotonic() + _FIRST_REPORT
             while True:
                 observer.poll()

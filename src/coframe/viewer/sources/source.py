@@ -84,6 +84,9 @@ class ViewerSource(Protocol):
     def running(self) -> int:
         """Return the time in nanoseconds by which frames become stale: monotonic, without pauses of a simulation."""
 
+    def other_subscriptions(self, topic: str) -> int:
+        """Return the number of subscriptions to a topic without those of the viewer."""
+
     def examine(self) -> Generator[dict[str, Report] | None, None, None] | None:
         """Return a generator of doctor reports by namespace, or None if there is nothing to examine.
 
@@ -110,6 +113,10 @@ class WithoutClock:
     def running(self) -> int:
         """Return the time of the monotonic clock in nanoseconds."""
         return time.monotonic_ns()
+
+    def other_subscriptions(self, _topic: str) -> int:
+        """Return 0: nothing is published."""
+        return 0
 
 
 class BufferSource(WithoutClock):
