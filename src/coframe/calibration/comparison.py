@@ -181,7 +181,7 @@ def compare_rigs(first: Rig, second: Rig, renamed: Mapping[str, str] | None = No
         raise CalibrationError(
             f"the calibrations have no two frames and no camera in common: the first one has {have[0]}; the second one "
             f"has {have[1]}",
-            hint="Name frames that are the same: --rename NAME_IN_B=NAME_IN_A.",
+            hint="Name frames that are the same: `coframe calib diff A B --rename NAME_IN_B=NAME_IN_A`.",
         )
     in_first = {*first.frames, *first.cameras}
     in_second = {names.get(name, name) for name in known}

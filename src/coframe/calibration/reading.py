@@ -8,7 +8,6 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from coframe import robots
 from coframe._files.bounded_yaml import read_yaml
 from coframe._files.regular_files import read_regular, reading_hint
 from coframe._process.optional_imports import pip_install
@@ -29,6 +28,7 @@ from coframe.calibration.formats import (
 from coframe.calibration.rig import Rig
 from coframe.cameras import CameraError, CameraModel
 from coframe.errors import CalibrationError
+from coframe.robots import load
 
 if TYPE_CHECKING:
     import os
@@ -203,7 +203,7 @@ def _colmap(folder: Path) -> Rig:
 
 
 def _robot(file: Path) -> Rig:
-    robot = robots.load(file)
+    robot = load(file)
     mounts = tuple(
         pose.replace(target=robot.joints[name].parent, source=robot.joints[name].child)
         for name, pose in robot.joint_transforms(robot.zeros()).items()

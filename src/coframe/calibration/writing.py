@@ -17,6 +17,7 @@ from coframe.calibration._values import OPENGL_TO_OPTICAL
 from coframe.errors import CalibrationError
 from coframe.messages import find, serialize
 from coframe.transform.transform import Transform
+from coframe.type_names import TF_MESSAGE
 
 if TYPE_CHECKING:
     import os
@@ -61,7 +62,7 @@ def write(rig: Rig, path: str | os.PathLike[str], format_: str | None = None) ->
         reason = (
             f"{file.suffix} files have several formats" if fitting and not format_ else f"no format for {file.name}"
         )
-        raise CalibrationError(f"{reason}: choose one", hint=f"--to {'|'.join(known)}")
+        raise CalibrationError(f"{reason}: choose one", hint=f"`coframe calib convert --to {'|'.join(known)}`")
 
 
 def _urdf(rig: Rig) -> str:
@@ -142,7 +143,7 @@ def _camera_info(rig: Rig) -> str:
     if len(rig.cameras) != 1:
         raise CalibrationError(
             f"a camera_info file has one camera, and the calibration has {len(rig.cameras)}",
-            hint=f"Choose one: --camera {'|'.join(rig.cameras)}." if rig.cameras else "",
+            hint=f"Choose one: `coframe calib convert --camera {'|'.join(rig.cameras)}`." if rig.cameras else "",
         )
     ((name, camera),) = rig.cameras.items()
     lines = [f"image_width: {camera.width}", f"image_height: {camera.height}", f"camera_name: {json.dumps(name)}"]
@@ -189,7 +190,7 @@ def _write_recording(rig: Rig, file: Path) -> None:
     if file.exists():
         file.unlink()
     with Writer(file) as bag:
-        static = bag.add_topic("/tf_static", "tf2_msgs/msg/TFMessage")
+        static = bag.add_topic("/tf_static", TF_MESSAGE)
         bag.write(static, rig.buffer().encode(static=True), received=0)
         for name, camera in rig.cameras.items():
             topic = name if name.startswith("/") else f"/{name}/camera_info"

@@ -51,7 +51,7 @@ COMMANDS: dict[str, CommandRow] = {
         "view",
         ("dds", "viewer", "bags", "robots"),
         graph=True,
-        ros=False,
+        ros=True,
     ),
     "doctor": CommandRow(
         "Find problems with transforms, live or in a recording.", "doctor", ("dds", "bags"), graph=True, ros=True
