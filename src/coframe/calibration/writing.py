@@ -62,7 +62,9 @@ def write(rig: Rig, path: str | os.PathLike[str], format_: str | None = None) ->
         reason = (
             f"{file.suffix} files have several formats" if fitting and not format_ else f"no format for {file.name}"
         )
-        raise CalibrationError(f"{reason}: choose one", hint=f"`coframe calib convert --to {'|'.join(known)}`")
+        raise CalibrationError(
+            f"{reason}: choose one", hint=f"`coframe calib convert --to FORMAT`: {', '.join(known)}."
+        )
 
 
 def _urdf(rig: Rig) -> str:
@@ -143,7 +145,9 @@ def _camera_info(rig: Rig) -> str:
     if len(rig.cameras) != 1:
         raise CalibrationError(
             f"a camera_info file has one camera, and the calibration has {len(rig.cameras)}",
-            hint=f"Choose one: `coframe calib convert --camera {'|'.join(rig.cameras)}`." if rig.cameras else "",
+            hint=f"Choose one with `coframe calib convert --camera NAME`: {', '.join(rig.cameras)}."
+            if rig.cameras
+            else "",
         )
     ((name, camera),) = rig.cameras.items()
     lines = [f"image_width: {camera.width}", f"image_height: {camera.height}", f"camera_name: {json.dumps(name)}"]

@@ -136,7 +136,7 @@ def _python_of(wheel: Path) -> str:
     if match is None or not zipfile.is_zipfile(wheel):
         raise CourseError(
             f"{wheel} is not a wheel of coframe.",
-            hint="Build one: python -m pip wheel --no-deps -w dist .",
+            hint="Build one in a checkout of coframe: make wheels.",
         )
     if not any(word in match["platform"] for word in ("linux", "any")):
         raise CourseError(
