@@ -182,9 +182,9 @@ def check_suffixes(names: Sequence[str]) -> None:
     for name in names:
         suffix = Path(name).suffix.lower()
         if suffix == ".xacro":
+            command = f"coframe view --robot {safe_name(name)}"
             raise ViewerError(
-                "xacro files can contain Python expressions, so that the page does not open them",
-                hint=f"Run: coframe view --robot {safe_name(name)}",
+                "xacro files can contain Python expressions, so the page does not open them", hint=f"Run `{command}`."
             )
         if suffix not in {*suffixes(), *URDF, *TRAJECTORIES}:
             known = ", ".join(sorted({*suffixes(), *URDF, *TRAJECTORIES, ".rviz"}))
