@@ -183,6 +183,12 @@ def test_a_program_is_a_contender_that_prints_its_results():
 # The targets of the project.
 ROS_WHEELS = "ROS 2 Jazzy's rclpy on Fast DDS, from wheels"
 TARGETS = [
+    ("50th node of a process", "2nd to 5th", GrowsAtMost(1.5)),
+    ("50th node of a process", "ROS 2 Jazzy's rclpy on Fast DDS, from wheels", TimesAsFast(1.9)),
+    ("create_publisher beside 50 nodes", "ROS 2 Jazzy's rclpy on Fast DDS, from wheels", TimesAsFast(1.5)),
+    ("create_subscription beside 50 nodes", "ROS 2 Jazzy's rclpy on Fast DDS, from wheels", TimesAsFast(2.0)),
+    ("get_topic_names_and_types of 50 nodes", "ROS 2 Jazzy's rclpy on Fast DDS, from wheels", TimesAsFast(1.3)),
+    ("destroy_node beside 50 nodes", "ROS 2 Jazzy's rclpy on Fast DDS, from wheels", TimesAsFast(3.8)),
     ("lookup, newest, D=1", "Debian's tf2", TimesAsFast(35)),
     ("lookup, newest, D=5", "Debian's tf2", TimesAsFast(25)),
     ("lookup, newest, D=10", "Debian's tf2", TimesAsFast(18)),

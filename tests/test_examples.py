@@ -19,7 +19,13 @@ EXPECTED = {
     "07_urdf.py": r"tool relative to base_link: \[0\.614, 0\.0, 0\.348\] m",
     "08_recording.py": r"odom -> base_link: 101 transforms, moved 10\.00 m",
 }
-VIEWERS = {"10_click_to_measure.py", "11_calibration_sliders.py"}  # tests/viewer/browser/test_example_programs.py
+VIEWERS = {  # tests/viewer/browser/test_example_programs.py
+    "10_click_to_measure.py",
+    "11_calibration_sliders.py",
+    "12_record_a_route.py",
+    "13_tune_a_controller.py",
+    "14_label_detections.py",
+}
 NODES = ["01_static_broadcaster.py", "02_dynamic_broadcaster.py", "03_listener.py"]
 
 

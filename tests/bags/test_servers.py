@@ -355,7 +355,7 @@ def test_an_unknown_packing(run):
         return True
 
     with FileServer(behavior=answer) as server:
-        assert "packed with 'br'" in failure(server.url())
+        assert "compressed with 'br'" in failure(server.url())
 
 
 def test_chunked_transfer(run):

@@ -80,7 +80,7 @@ def test_a_check_runs_in_the_command_and_all_of_its_outputs(run, camera):
     run(COFRAME, "doctor", camera, "--ignore", "acme001")
     assert "\nACME001  Images without an optical frame" in run(COFRAME, "doctor", "--list").stdout
     assert run(COFRAME, "doctor", "--explain", "ACME001").stdout.startswith("# ACME001: Images without an optical")
-    assert "TF001 to TF029, ACME001" in run(COFRAME, "doctor", "--explain", "X", code=2).stderr
+    assert "TF001 to TF030, ACME001" in run(COFRAME, "doctor", "--explain", "X", code=2).stderr
 
 
 def test_a_check_runs_in_the_viewer(run, camera):

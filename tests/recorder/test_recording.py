@@ -234,7 +234,7 @@ def test_a_topic_with_two_unknown_types_is_reported_once():
     frames = FrameRenamer(renaming("robot1/"), "/robot1/tf", "/robot1/tf_static")
     for kind in ("my_pkg/msg/Unknown", "my_pkg/msg/Other"):
         for topic in ("/robot1/raw", "/robot1/b", "/robot2/raw"):
-            assert frames.renamed(MessageSource(topic, kind, latched=False), b"bytes") == b"bytes"
+            assert frames.rename_message(MessageSource(topic, kind, latched=False), b"bytes") == b"bytes"
     assert list(frames.not_renamed) == ["/robot1/raw", "/robot1/b"]
 
 

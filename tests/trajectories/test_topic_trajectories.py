@@ -112,7 +112,7 @@ def test_start_and_stop(bag):
         ("/pos", "no topic '/pos'", "'/pose'"),
         ("/pose.pos", "/pose has no field 'pos'", "'pose'"),
         ("/twist", "the messages on /twist contain no pose", "position and orientation"),
-        ("/particles", "have no stamps of their own", "Odometry"),
+        ("/particles", "have no separate stamps", "Odometry"),
         ("/plan", "have the same stamp", ""),
         ("/tree", "transforms of a tree", "two frames"),
         ("/moved", "poses in several frames: map, odom", ""),

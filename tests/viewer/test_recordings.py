@@ -14,7 +14,8 @@ def test_a_recording_at_any_time(shared, view, open_tab):
     tab = open_tab(view(path, fixed="odom"))
     hello = tab.wait("hello")
     assert (hello["mode"], hello["title"], hello["can_publish"]) == ("recording", "tb3_gazebo_walker", False)
-    assert {"topic": "/scan", "type": "sensor_msgs/msg/LaserScan", "display": "LaserScan"} in hello["topics"]
+    scan = {"topic": "/scan", "type": "sensor_msgs/msg/LaserScan", "display": "LaserScan", "automatic": True}
+    assert scan in hello["topics"]
     first, last = hello["span"]
     tab.send("subscribe", id=1, topic="/scan", options={})
     bag = coframe.open_bag(path)

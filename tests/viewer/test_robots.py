@@ -130,6 +130,7 @@ def test_the_page_receives_links_and_joints_and_no_urdf(tmp_path, view, open_tab
         "mimic": None,
         "lower": -1,
         "upper": 2,
+        "effort": 1.0,
         "value": 0,
     }
     assert (grip["axis"], grip["lower"], grip["value"]) == ([1, 0, 0], None, None)

@@ -102,7 +102,10 @@ def test_a_replay_is_written_without_a_browser(shared, tmp_path):
 """
     )
     for number, (options, fixed, displays) in enumerate(
-        [([], "tilt_base", ["Grid", "TF", "/scan"]), (["-d", "my.rviz"], "laser", ["Tilt", "Hidden"])]
+        [
+            ([], "tilt_base", ["Grid", "TF", "/scan", "/imu_data", "/position_gps", "/velocity"]),
+            (["-d", "my.rviz"], "laser", ["Tilt", "Hidden"]),
+        ]
     ):
         output = tmp_path / f"{number}.html"
         words = [*COMMAND, "view", str(bag), "-o", output.name, "--stop", "2s", "--rate", "10", *options]
@@ -113,7 +116,8 @@ def test_a_replay_is_written_without_a_browser(shared, tmp_path):
         replay = json.loads(block)
         assert (replay["fixed"], replay["rate"]) == (fixed, 10.0)
         assert [display["name"] for display in replay["rviz"]["displays"]] == displays
-        (scan,) = replay["displays"]
+        scan, *others = replay["displays"]
+        assert [display["topic"] for display in others] == ([] if options else displays[3:])
         assert (scan["topic"], scan["color_by"]) == ("/scan", "axis" if options else "intensity")
         assert len(scan["drawings"]) > 5
     assert sorted(file.name for file in tmp_path.iterdir()) == ["0.html", "1.html", "my.rviz"]

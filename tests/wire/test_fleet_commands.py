@@ -160,6 +160,8 @@ OTHER_COMMANDS = {
 }
 OTHER_GROUPS = {
     "action",
+    "calib",
+    "calibrate",
     "component",
     "daemon",
     "interface",

@@ -11,5 +11,7 @@ export function link(key: string, values: readonly string[]): void {
   parameters.delete(key);
   for (const value of values) parameters.append(key, value);
   const hash = parameters.toString();
+  // A replay in a cell of a notebook has no address of its own.
+  if (location.protocol === "about:") return;
   history.replaceState(null, "", hash ? `#${hash}` : location.pathname + location.search);
 }
