@@ -129,7 +129,9 @@ def test_names_jumps_and_silence_are_shown(server, robot, open_page):
     page.wait(lambda: page.raw.locator("#toasts .toast").count() == 0, "the dismissed notification")
     page.key("Shift+R")
     page.wait(lambda: "Reset." in page.text("#toasts"), "the notification of the reset")
-    page.until(f"{X} > 500")
+    updates = page.evaluate("coframe.updates")
+    page.until(f"{X} > 500 && coframe.updates > {updates} + 20")
+    page.until("coframe.displays.Relative.state === 'ok' && coframe.displays.Relative.messages.length > 0")
 
     robot.silent = True
     page.until(f"{PILL}.startsWith('No data for')")
