@@ -22,7 +22,7 @@ TASKS = {
     "transform a point cloud": ("quickstart.html", "transform-a-point-cloud"),
     "convert from pytransform3d": ("how-to/pytransform3d.html", ""),
     "read a URDF": ("how-to/urdf.html", "read-a-urdf-or-xacro-file"),
-    "convert a bag": ("how-to/recordings.html", "commands-look-into-a-bag-convert-cut-or-repair-it"),
+    "convert a bag": ("how-to/recordings.html", "commands-inspect-convert-cut-or-repair-a-bag"),
     "poses as a pandas table": ("how-to/pandas.html", ""),
     "nodes do not see each other": (
         "how-to/doctor.html",
@@ -39,6 +39,38 @@ TASKS = {
     "coming from Humble": ("how-to/coming-from-tf2.html", "coming-from-humble"),
     "tests of launched systems": ("how-to/launch.html", "tests-of-launched-systems"),
     "TF003": ("reference/doctor-codes.html", "tf003"),
+}
+
+# Tasks, and the page that does each: one of the first two pages of the results.
+PAGES = {
+    "camera poses at each image stamp": "how-to/camera-poses.html",
+    "inverse kinematics": "how-to/pinocchio.html",
+    "merge with clock offset": "how-to/merge-recordings.html",
+    "project points in Python": "how-to/project-points.html",
+    "odometry topic as a trajectory": "how-to/trajectories.html",
+    "rename a frame in a recording": "how-to/repair.html",
+    "shift stamps in a recording": "how-to/repair.html",
+    "add a transform to a recording": "how-to/repair.html",
+    "send a transform": "how-to/send-transforms.html",
+    "publish odometry": "how-to/send-transforms.html",
+    "time travel": "handbook/09_time_travel.html",
+    "PoseStamped to Transform": "how-to/poses-and-messages.html",
+    "polars": "how-to/datasets.html",
+    "xarray": "how-to/datasets.html",
+    "torch": "how-to/datasets.html",
+    "JAX": "how-to/datasets.html",
+    "S3": "how-to/servers.html",
+    "HDF5": "how-to/datasets.html",
+    "multiprocessing": "how-to/workers.html",
+    "uncertainty": "how-to/uncertainty.html",
+    "evo on recordings": "how-to/trajectories.html",
+    "record a bag": "how-to/record-and-replay.html",
+    "repair a bag": "how-to/repair.html",
+    "environment variables": "reference/environment.html",
+    "which thread runs my callback": "how-to/threads.html",
+    "troubleshooting": "troubleshooting.html",
+    "comparison with RViz": "concepts/comparison.html",
+    "supported versions": "reference/supported-versions.html",
 }
 
 
@@ -116,6 +148,12 @@ def test_link_checker_finds_what_is_broken(tmp_path):
 @pytest.mark.parametrize("task", TASKS)
 def test_task_is_found_by_the_search(opened, task):
     assert TASKS[task] in opened.search(task)[:FIRST]
+
+
+@pytest.mark.parametrize("task", PAGES)
+def test_page_of_a_task_is_first_or_second(opened, task):
+    pages = list(dict.fromkeys(page for page, _ in opened.search(task)))
+    assert PAGES[task] in pages[:2]
 
 
 def test_result_leads_to_the_section(opened):
