@@ -33,6 +33,7 @@ __all__ = ["CLOUD_FORMATS", "write_clouds"]
 
 _FLOAT64_ADVICE = "float64=True keeps them, and so do .ply, .npz and .npy files."
 CLOUD_FORMATS = ("ply", "pcd", "npz", "npy", "mcap")
+_COLORS = ("red", "green", "blue")
 _MAX_DIGITS = 20  # space in the header for the count, which is known only at the end
 _NPY_PREAMBLE_BYTES = 12  # bytes before the text of NumPy's header
 
@@ -232,8 +233,8 @@ class _Pcd(_Rows):
     """PCD, with coordinates as float32, which PCL requires, or as float64."""
 
     def rows(self, points: NDArray[Any]) -> NDArray[Any]:
-        """Return the points with x, y, z as float32 or float64."""
-        return _cast_coordinates(points, {}, self._coordinate_type)
+        """Return the points with x, y, z as float32 or float64, and colors as PCL packs them."""
+        return _cast_coordinates(_pack_colors(points), {}, self._coordinate_type)
 
     def header(self, dtype: np.dtype[Any], count: int) -> bytes:
         """Return the header of version 0.7. A comment pads it to a constant length."""
@@ -333,7 +334,7 @@ _DATATYPES = {"i1": 1, "u1": 2, "i2": 3, "u2": 4, "i4": 5, "u4": 6, "f4": 7, "f8
 
 def message_of(cloud: Cloud, xyz: str = "<f4") -> Any:
     """Return a PointCloud2, usually with float32 coordinates, which other tools expect."""
-    points = _cast_coordinates(cloud.points, {"i8": "<f8", "u8": "<f8"}, xyz)
+    points = _cast_coordinates(_pack_colors(cloud.points), {"i8": "<f8", "u8": "<f8"}, xyz)
     message, field = find(POINT_CLOUD)(), find("sensor_msgs/msg/PointField")
     message.header.frame_id = cloud.frame
     message.header.stamp.sec, message.header.stamp.nanosec = divmod(cloud.stamp, time.SECOND)
@@ -345,6 +346,20 @@ def message_of(cloud: Cloud, xyz: str = "<f4") -> Any:
     message.data = points.tobytes()
     message.is_dense = True
     return message
+
+
+def _pack_colors(points: NDArray[Any]) -> NDArray[Any]:
+    """Return the points with their color in the field ``rgb``, whose bits are 0x00RRGGBB."""
+    names = points.dtype.names or ()
+    if not {*_COLORS} <= {*names} or any(points.dtype[name] != np.uint8 for name in _COLORS):
+        return points
+    others = [name for name in names if name not in {*_COLORS, "rgb"}]
+    packed = np.empty(points.shape, [*((name, points.dtype[name]) for name in others), ("rgb", "<f4")])
+    for name in others:
+        packed[name] = points[name]
+    red, green, blue = (points[name].astype("<u4") for name in _COLORS)
+    packed["rgb"] = (red << 16 | green << 8 | blue).view("<f4")
+    return packed
 
 
 def _type_letters(dtype: np.dtype[Any], name: str) -> str:

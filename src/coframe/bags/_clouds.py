@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The points of a recorded topic (point clouds or laser scans), transformed into one frame and deskewed."""
+"""The points of a recorded topic (clouds, laser scans or depth images), transformed into one frame and deskewed."""
 
 from __future__ import annotations
 
@@ -10,9 +10,12 @@ import numpy as np
 from coframe import time
 from coframe._output.formatting import count, duration
 from coframe.analysis.liveness import usual_period
+from coframe.bags._cloud_colors import CloudColors
+from coframe.bags._recorded_camera import RecordedCamera
 from coframe.buffer.gaps import gap_limit, in_long_gap
-from coframe.errors import DecodeError, ExtrapolationException, RecordingError, TransformException
+from coframe.errors import CameraError, DecodeError, ExtrapolationException, RecordingError, TransformException
 from coframe.sensors import deskew, project_scan, transform_cloud
+from coframe.sensors.depth_clouds import decode_depths, depth_points
 from coframe.sensors.layout import field_of
 from coframe.sensors.motion import still_frame
 from coframe.sensors.point_times import (
@@ -26,7 +29,7 @@ from coframe.sensors.point_times import (
     read_times,
 )
 from coframe.sensors.thinning import thin_points
-from coframe.type_names import LASER_SCAN, POINT_CLOUD
+from coframe.type_names import COMPRESSED_IMAGE, IMAGE, LASER_SCAN, POINT_CLOUD
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -40,6 +43,8 @@ if TYPE_CHECKING:
 __all__ = ["Cloud", "Clouds"]
 
 _SCAN_FIELDS = {"intensity", "index"}
+_COLOR_FIELDS = ("red", "green", "blue", "colored")
+_TYPES = {POINT_CLOUD, LASER_SCAN, IMAGE, COMPRESSED_IMAGE}
 _MIN_PENDING = 1_000_000  # points to gather before they are thinned
 _MAX_COMPARED_STAMPS = 200  # stamps of messages at which is seen what moves
 
@@ -74,13 +79,14 @@ class _MeasuredPoints(NamedTuple):
 
 
 class Clouds:
-    """An iterable over the point clouds or laser scans of a topic, transformed into one frame.
+    """An iterable over the point clouds, laser scans or depth images of a topic, transformed into one frame.
 
     It can be iterated several times. The attributes below describe the last iteration.
 
     Args:
         recording: The recording that contains the topic and the transforms.
-        topic: A topic of PointCloud2 or LaserScan messages.
+        topic: A topic of PointCloud2 or LaserScan messages, or of depth images: Image (16UC1 in millimeters, 32FC1 in
+            meters) or CompressedImage (compressedDepth).
         frame: The frame into which the points are transformed.
         start: The first stamp; earlier messages are skipped.
         stop: The end; messages with this or a later stamp are skipped.
@@ -98,6 +104,11 @@ class Clouds:
             ``"raise"`` an ExtrapolationException.
         validity: Whether the points get the field ``gap_ns``: the longest interval between two transforms of an edge
             that their pose was interpolated over, in nanoseconds (int64).
+        color: A topic of images that color the points: Image or CompressedImage. Each point is moved to the time of
+            the image; points that the camera does not see, or that are behind nearer ones, get no color. The points get
+            the fields ``red``, ``green``, ``blue`` and ``colored`` (0 or 1), as uint8.
+        color_info: The topic of the CameraInfo of these images, or None for the one next to them.
+        depth_info: The topic of the CameraInfo of depth images, or None for the one next to them.
 
     Attributes:
         total: Number of messages to read.
@@ -113,6 +124,7 @@ class Clouds:
         not_deskewed: Number of messages that have point times but were not deskewed, by reason.
         gaps: Number of messages that lie in an unusually long gap of an edge, if there is no ``max_gap``, by edge.
         doubts: Number of messages with suspicious times, by reason.
+        colored: Number of points that have a color.
 
     Raises:
         RecordingError: The topic does not exist or has another type.
@@ -135,6 +147,9 @@ class Clouds:
         max_gap: DurationLike | None = None,
         on_gap: OnGap = "omit",
         validity: bool = False,
+        color: str | None = None,
+        color_info: str | None = None,
+        depth_info: str | None = None,
     ) -> None:
         if deskew not in {"auto", "off"}:
             raise ValueError(f'deskew must be "auto" or "off", not {deskew!r}')
@@ -142,12 +157,15 @@ class Clouds:
         self._stamps = recording.stamps(topic)  # Raises if the topic does not exist.
         self.topic = topic if topic in recording.topics else f"/{topic}"
         self._type = recording.topics[self.topic].type
-        if self._type not in {POINT_CLOUD, LASER_SCAN}:
-            others = [name for name, other in recording.topics.items() if other.type in {POINT_CLOUD, LASER_SCAN}]
+        if self._type not in _TYPES:
+            others = [name for name, other in recording.topics.items() if other.type in _TYPES]
             raise RecordingError(
-                f"{self.topic} has type {self._type}, not PointCloud2 or LaserScan",
-                hint=f"Topics with points: {', '.join(others) or 'none'}.",
+                f"{self.topic} has type {self._type}, not PointCloud2, LaserScan or Image",
+                hint=f"Topics with points or images: {', '.join(others) or 'none'}.",
             )
+        is_image = self._type in {IMAGE, COMPRESSED_IMAGE}
+        self._depth_camera = RecordedCamera(recording, self.topic, depth_info) if is_image else None
+        self._colors = None if color is None else CloudColors(recording, color, color_info)
         self.frame = frame
         self._start, self._stop, self._only_at = start, stop, at
         self._deskews = deskew == "auto"
@@ -174,9 +192,17 @@ class Clouds:
         self.not_deskewed: dict[str, int] = {}
         self.doubts: dict[str, int] = {}
         self.gaps: dict[str, int] = {}
+        self.colored = 0
+        if self._colors is not None:
+            self._colors.not_colored = {}
         self.hint = ""
         self._known_reasons: dict[tuple[Any, ...], str] = {}
         self._unknown_time_reasons: dict[str | None, str] = {}  # the first message stands for all
+
+    @property
+    def not_colored(self) -> dict[str, int]:
+        """Number of messages whose points have no colors, by reason."""
+        return {} if self._colors is None else self._colors.not_colored
 
     @property
     def total(self) -> int:
@@ -232,17 +258,19 @@ class Clouds:
         try:
             message = recorded.message
             frame = self._recording.frame(str(message.header.frame_id))
-            measured = self._scan(message) if self._type == LASER_SCAN else self._points(message, recorded.stamp)
+            measured = self._measured(message, recorded.stamp)
             points, times = measured.points, measured.times
             finite = np.isfinite(points["x"]) & np.isfinite(points["y"]) & np.isfinite(points["z"])
             self._count(self.points_skipped, "have no finite coordinates", np.count_nonzero(~finite))
             points, times = points[finite], times[finite] if times is not None else None
+            points = self._add_colors(points, times, frame, recorded.stamp)
             deskewed = self._transform_points(points, times, frame, recorded.stamp)
             gaps = self._find_gaps(times, frame, recorded.stamp)
         except TransformException as error:
             self.hint = self.hint or error.hint
             self._count(self.skipped, self._reason(error))
-        except (DecodeError, ValueError, AttributeError) as error:
+        except (CameraError, DecodeError, ValueError, AttributeError) as error:
+            self.hint = self.hint or getattr(error, "hint", "")
             self._count(self.skipped, f"cannot be read: {error}")
         else:
             transformed = np.isfinite(points["x"])
@@ -259,6 +287,25 @@ class Clouds:
             used = measured.same_times if read is None else read.field
             return Cloud(recorded.stamp, self.frame, points[transformed], deskewed, used)
         return None
+
+    def _measured(self, message: Any, stamp: int) -> _MeasuredPoints:
+        if self._depth_camera is not None:
+            return self._depths(message, self._depth_camera, stamp)
+        return self._scan(message) if self._type == LASER_SCAN else self._points(message, stamp)
+
+    def _add_colors(
+        self, points: NDArray[Any], times: NDArray[np.int64] | None, frame: str, stamp: int
+    ) -> NDArray[Any]:
+        """Return the points with fields for their colors, if there is a camera."""
+        if self._colors is None:
+            return points
+        fixed = self._choose_fixed_frame(frame)
+        xyz = np.stack([points[axis] for axis in "xyz"], axis=1)
+        colors, visible = self._colors.colors(xyz, times, frame, stamp, fixed)
+        self.colored += int(np.count_nonzero(visible))
+        columns = {name: points[name] for name in points.dtype.names or () if name not in _COLOR_FIELDS}
+        added = zip(_COLOR_FIELDS, (*colors.T, visible.astype(np.uint8)), strict=True)
+        return _structured_array({**columns, **dict(added)})
 
     def _transform_points(self, points: NDArray[Any], times: NDArray[np.int64] | None, frame: str, stamp: int) -> bool:
         """Transform points in place, and return whether each was transformed at its own time."""
@@ -378,6 +425,14 @@ class Clouds:
         return _MeasuredPoints(
             _structured_array(columns), hits.times if self._deskews and message.time_increment != 0 else None
         )
+
+    def _depths(self, message: Any, camera: RecordedCamera, stamp: int) -> _MeasuredPoints:
+        points = depth_points(decode_depths(message), camera.camera_at(stamp), rectified=camera.rectified).reshape(
+            -1, 3
+        )
+        measured = np.isfinite(points[:, 2])
+        self._count(self.points_skipped, "have no depth", np.count_nonzero(~measured))
+        return _MeasuredPoints(_structured_array(dict(zip("xyz", points[measured].T, strict=True))))
 
     def _reason(self, error: TransformException) -> str:
         """Return the first error message that differs from this one only in its times."""

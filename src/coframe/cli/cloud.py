@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""``coframe cloud``: writes the point clouds or scans of a recording, transformed into one frame."""
+"""``coframe cloud``: writes the point clouds, scans or depth images of a recording, transformed into one frame."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ __all__ = ["cloud"]
 
 @click.command(cls=Command)
 @bag_argument
-@argument("topic", metavar="TOPIC", help="Topic of type PointCloud2 or LaserScan.")
+@argument("topic", metavar="TOPIC", help="Topic of type PointCloud2 or LaserScan, or a depth image.")
 @click.option(
     "--frame",
     metavar="FRAME",
@@ -73,6 +73,11 @@ __all__ = ["cloud"]
 @click.option(
     "--fields", metavar="FIELDS", help="Fields to keep in addition to x,y,z, e.g. intensity,ring. [default: all]"
 )
+@click.option("--color", metavar="IMAGE_TOPIC", help="Color the points that the camera of these images sees.")
+@click.option(
+    "--color-info", metavar="TOPIC", help="CameraInfo of the images of --color. [default: the one next to them]"
+)
+@click.option("--depth-info", metavar="TOPIC", help="CameraInfo of depth images. [default: the one next to them]")
 @click.option("--voxel", metavar="METERS", type=float, help="Keep one point per cube with this edge length, in meters.")
 @click.option(
     "--float64", is_flag=True, help="Also write the coordinates in PCD and MCAP files as float64. [default: float32]"
@@ -95,6 +100,9 @@ def cloud(
     point_times: str | None,
     fixed: str | None,
     fields: str | None,
+    color: str | None,
+    color_info: str | None,
+    depth_info: str | None,
     voxel: float | None,
     float64: bool,
     max_gap: PositiveDuration | None,
@@ -106,7 +114,7 @@ def cloud(
     prefix: str,
     keep: str,
 ) -> None:
-    """Write the clouds or scans on TOPIC in the recording BAG, each transformed into FRAME at its own time.
+    """Write the clouds, scans or depth images on TOPIC in the recording BAG, transformed into FRAME at their own times.
 
     Example: coframe cloud run.mcap /points --frame map --voxel 0.05 -o map.ply
     """
@@ -132,6 +140,9 @@ def cloud(
                 max_gap=max_gap,
                 on_gap=cast("OnGap", on_gap),
                 validity=validity,
+                color=color,
+                color_info=color_info,
+                depth_info=depth_info,
             )
         except ValueError as error:
             if hasattr(error, "hint"):
@@ -161,6 +172,8 @@ def _write(clouds: Clouds, output: Path, format_: str | None, voxel: float | Non
 def _describe_counts(clouds: Clouds, points: int) -> str:
     """Return a summary of the numbers of written, deskewed, thinned and omitted points and messages."""
     parts = [f"{clouds.deskewed} deskewed"] if clouds.deskewed else []
+    if clouds.colored:
+        parts.append(f"{count(clouds.colored, 'point')} colored")
     if points < clouds.points:
         parts.append(f"thinned from {count(clouds.points, 'point')}")
     if omitted := sum(clouds.skipped.values()):
@@ -187,6 +200,8 @@ def _print_notes(clouds: Clouds) -> None:
         warn(f"{count(number, 'message')}: {doubt}. Check the unit, and set it with --point-times FIELD:UNIT")
     for reason, number in clouds.not_deskewed.items():
         warn(f"did not deskew the points of {count(number, 'message')}: {reason} (--point-times, --deskew off)")
+    for reason, number in clouds.not_colored.items():
+        warn(f"did not color the points of {count(number, 'message')}: {reason}")
     for reason, number in clouds.skipped.items():
         warn(f"omitted {count(number, 'message')} of {clouds.topic}: {reason}")
     for reason, number in clouds.points_skipped.items():

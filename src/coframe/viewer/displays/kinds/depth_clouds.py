@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from coframe.sensors.depth_images import decode_compressed_depth
+from coframe.cameras import CameraError, CameraModel, camera_info_topic, is_rectified_topic
+from coframe.errors import DecodeError
+from coframe.sensors.depth_clouds import decode_depths, depth_points
 from coframe.sensors.image_pixels import decode_image
 from coframe.viewer.displays._drawing import CannotDrawError, Drawing, Options
 from coframe.viewer.displays._row import DisplayRow, TextOption
@@ -20,9 +22,7 @@ if TYPE_CHECKING:
     from coframe.viewer.protocol.client_messages import DisplayOptions
     from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 
-__all__ = ["DEPTH_CLOUD", "camera_info_topic"]
-
-_MILLIMETER = 0.001  # The unit of depth images of integers, by REP 118.
+__all__ = ["DEPTH_CLOUD"]
 
 
 class DepthCloudRenderer:
@@ -32,6 +32,7 @@ class DepthCloudRenderer:
         self._options = options
         self._others = resources.others
         self._info_topic = camera_info_topic(resources.topic)
+        self._rectified = is_rectified_topic(resources.topic)
         self._lacks_info = False
 
     def draw(self, message: StampedMessage, time: int, at: int) -> list[Drawing]:
@@ -44,9 +45,12 @@ class DepthCloudRenderer:
                 f"there is no CameraInfo on {self._info_topic}, which is needed for the rays of the pixels"
             )
         image = message.read()
-        depths = _meters(image)
-        step = max(1, int(np.ceil(np.sqrt(depths.size / self._options.max_points))))
-        points = _points(depths, info, step)
+        try:
+            depths, camera = decode_depths(image), CameraModel.from_info(info)
+            step = max(1, int(np.ceil(np.sqrt(depths.size / self._options.max_points))))
+            points = depth_points(depths, camera, rectified=self._rectified, step=step).reshape(-1, 3)
+        except (CameraError, DecodeError) as error:
+            raise CannotDrawError(str(error)) from None
         names: list[str] = []
         colors: NDArray[Any] | None = None
         if self._options.second_topic:
@@ -58,7 +62,7 @@ class DepthCloudRenderer:
             assert colors is not None
             return colors
 
-        return [cloud_drawing(image.header, points, names, channel, self._options, step=step * step)]
+        return [cloud_drawing(image.header, points.astype(np.float32), names, channel, self._options, step=step * step)]
 
     def has_changed(self, time: int, at: int) -> bool:
         """Return whether a missing CameraInfo has arrived."""
@@ -69,39 +73,6 @@ class DepthCloudRenderer:
         messages = self._others.get(topic)
         found = None if messages is None else messages.at(at)
         return None if found is None else found.read()
-
-
-def camera_info_topic(image: str) -> str:
-    """Return the topic of the CameraInfo of an image, next to the raw image as in image_transport."""
-    parts = image.split("/")
-    below = 2 if parts[-1] in {"compressedDepth", "compressed"} else 1
-    return "/".join([*parts[:-below], "camera_info"])
-
-
-def _meters(image: Any) -> NDArray[np.float32]:
-    """Return the depths of an image in meters, (height, width); NaN where there is none."""
-    values = decode_compressed_depth(image) if hasattr(image, "format") else decode_image(image)
-    if values.ndim != 2 or values.dtype == np.uint8:
-        kind = getattr(image, "encoding", "") or getattr(image, "format", "")
-        raise CannotDrawError(f"{kind[:40]!r} is not an encoding of depths. Depth images are 16UC1 or 32FC1")
-    if values.dtype == np.float32:
-        return values
-    depths: NDArray[np.float32] = (values * np.float32(_MILLIMETER)).astype(np.float32)
-    depths[values == 0] = np.nan
-    return depths
-
-
-def _points(depths: NDArray[np.float32], info: Any, step: int) -> NDArray[np.float32]:
-    """Return every n-th pixel as a point in the optical frame, (N, 3)."""
-    matrix = (info.p[0], info.p[5], info.p[2], info.p[6]) if info.p[0] else (info.k[0], info.k[4], info.k[2], info.k[5])
-    fx, fy, cx, cy = matrix
-    if not (fx > 0 and fy > 0):
-        raise CannotDrawError("the CameraInfo contains no calibration: fx and fy must be positive")
-    rows, columns = np.mgrid[0 : depths.shape[0] : step, 0 : depths.shape[1] : step].astype(np.float32)
-    z = depths[::step, ::step]
-    with np.errstate(invalid="ignore"):
-        points = np.stack([(columns - cx) / fx * z, (rows - cy) / fy * z, z], axis=-1).reshape(-1, 3)
-    return points.astype(np.float32)
 
 
 def _packed_colors(image: Any, shape: tuple[int, ...], step: int) -> NDArray[np.uint32]:
