@@ -16,6 +16,7 @@ from coframe.cameras import CameraModel, color_points
 from coframe.cli.app import app
 from coframe.messages import find, serialize
 from coframe.sensors import depth_points
+from coframe.sensors.layout import field_of
 
 CLOUD, IMAGE, INFO = "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/Image", "sensor_msgs/msg/CameraInfo"
 RED, GREEN, BLUE, NONE = (200, 0, 0), (0, 150, 0), (0, 0, 250), (0, 0, 0)
@@ -106,8 +107,10 @@ def path(tmp_path_factory):
     for i in range(101):
         at = START + i * SECOND // 50
         rows.append(("/tf", at, recordings.cdr("map", "base", buffer.lookup("map", "base", at), at)))
-    for frame in ("camera", "lidar"):
-        rows.append(("/tf_static", START, recordings.cdr("base", frame, buffer.lookup("base", frame), START)))
+    rows += [
+        ("/tf_static", START, recordings.cdr("base", frame, buffer.lookup("base", frame), START))
+        for frame in ("camera", "lidar")
+    ]
     info = camera_info(TAKEN)
     depths, colors = seen(info, TAKEN)
     messages = [
@@ -185,8 +188,6 @@ def test_colors_are_written_as_each_format_has_them(path, tmp_path):
     assert "TYPE F F F U U F" in header
     with coframe.open_bag(bag) as recording:
         message = next(recording.messages("/points")).message
-    from coframe.sensors.layout import field_of  # noqa: PLC0415
-
     packed = np.ascontiguousarray(field_of(message, "rgb")).reshape(-1).view("<u4")
     color = np.stack([packed >> 16, packed >> 8 & 255, packed & 255], axis=1)
     np.testing.assert_array_equal(color, rgb(cloud.points))
@@ -204,7 +205,7 @@ def test_depth_images_are_clouds(path, topic, accuracy):
     assert cloud.points["colored"].mean() > 0.99
 
 
-def test_rectified_depth_images_use_p(path):
+def test_rectified_depth_images_use_p():
     info = camera_info(TAKEN, r=[1.0, 0, 0, 0, 1, 0, 0, 0, 1])
     info.p = [100.0, 0, 150, -5, 0, 100, 90, 0, 0, 0, 1, 0]
     points = depth_points(np.full((200, 320), 2.0), CameraModel.from_info(info), rectified=True)
