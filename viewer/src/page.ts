@@ -17,6 +17,7 @@ import { JointsPanel } from "./panels/joints";
 import { marksOf } from "./model/marks";
 import { Forest, Model } from "./model/model";
 import { FileOpener } from "./panels/open_file";
+import { MovieRecorder } from "./panels/movie";
 import { Overlay } from "./panels/overlay";
 import { PartsPanel } from "./panels/parts";
 import { Panel } from "./panels/side_panel";
@@ -37,6 +38,7 @@ import { toast } from "./util/toast";
 import { Toolbar } from "./panels/toolbar";
 import { ToolSettings } from "./model/tools";
 import { TreePanel } from "./panels/tree";
+import { Undo } from "./panels/undo";
 import { View } from "./scene/view";
 import { ViewsPanel } from "./panels/views";
 
@@ -82,7 +84,13 @@ export function showPage(source: MessageSource): void {
   });
   const overlay = new Overlay(byId("overlay"), byId("notice"), model, view, () => views.toggle());
   const toolbar = new Toolbar(byId("overlay"), model, view, toolSettings);
-  const views = new ViewsPanel(byId("overlay"), model, view);
+  const views = new ViewsPanel(byId("overlay"), model, view, () => {
+    panel.restore();
+    if (source.live) dock.restore();
+  });
+  const undo = new Undo(displays, view);
+  for (const event of ["rviz", "hello"] as const) model.on(event, () => undo.clear());
+  const movie = new MovieRecorder(byId("overlay"), model, view);
   new Inspector(byId("inspector"), model, view);
   new PartsPanel(byId("parts"), model, view, source.live);
   new Selector(model, view, displays);
@@ -118,6 +126,9 @@ export function showPage(source: MessageSource): void {
     { key: "b", text: "Show or hide the panel", act: () => panel.toggle() },
     ...(source.live ? dock.shortcuts() : []),
     { key: "d", text: "Dark or light theme", act: () => theme.toggleDark() },
+    { key: "Control+z", shown: "Ctrl z", text: "Undo a change of a display or of the camera", act: () => undo.undo() },
+    { key: "Control+Z", shown: "Ctrl y", text: "Redo", act: () => undo.redo() },
+    { key: "M", shown: "Shift m", text: "Record a movie of the scene, or stop it", act: () => movie.toggle() },
     { key: "s", text: "Save an image", act: () => void saveImage(view, model) },
     { key: "Escape", shown: "Esc", text: "Deselect or cancel the tool", act: () => deselect() },
     { key: "?", text: "Show or hide this help", act: () => shortcuts.show() },
@@ -133,6 +144,7 @@ export function showPage(source: MessageSource): void {
       open: () => opener.show(),
       togglePanel: () => panel.toggle(),
       saveImage: () => void saveImage(view, model),
+      recordMovie: () => movie.toggle(),
       saveReplay: () => replays.open(),
       panes: source.live ? dock.menu() : [],
     },
@@ -224,6 +236,8 @@ export function showPage(source: MessageSource): void {
       case "saved":
       case "curve":
       case "inspection":
+      case "table":
+      case "states":
       case "log":
       case "graph":
       case "completions":

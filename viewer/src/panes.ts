@@ -3,6 +3,8 @@
 
 import { ControlPane } from "./control/pane";
 import { Dock } from "./dock/dock";
+import { StatesPane } from "./history/states_pane";
+import { TablePane } from "./history/table_pane";
 import { LogPane } from "./log/pane";
 import { MessagePane } from "./message_inspector/pane";
 import type { Model } from "./model/model";
@@ -13,7 +15,9 @@ import type { Theme } from "./util/theme";
 export function makeDock(root: HTMLElement, model: Model, theme: Theme, onChange: (shown: string[]) => void): Dock {
   const panes = [
     new PlotsPane(model, theme),
+    new StatesPane(model),
     new MessagePane(model),
+    new TablePane(model),
     new LogPane(model),
     new GraphPane(model),
     new ControlPane(model),

@@ -14,6 +14,7 @@ const LAYERS = [
   "displays",
   "dock",
   "plots",
+  "history",
   "message_inspector",
   "log",
   "node_graph",

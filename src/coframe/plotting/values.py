@@ -16,7 +16,7 @@ from coframe.transform.quantities import ANGLES
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["NoElementError", "axis_title", "field_names", "field_value", "rates"]
+__all__ = ["NoElementError", "axis_title", "field_content", "field_names", "field_value", "rates"]
 
 _WINDOW = SECOND  # of rates
 _MAX_LISTED_NAMES = 12  # names in a hint
@@ -37,6 +37,27 @@ class NoElementError(CoframeError, LookupError):
     """A sequence in a message is too short for the index."""
 
 
+def field_content(message: Any, expression: FieldExpression, type_: str) -> Any:
+    """Return the content of a field of any type.
+
+    Args:
+        message: The message; bytes if the definition of its type is unknown.
+        expression: The field.
+        type_: The type of the message.
+
+    Raises:
+        PlotError: The field does not exist.
+        NoElementError: A sequence is too short for an index.
+    """
+    if isinstance(message, bytes):
+        raise PlotError(f"{expression.text}: the messages have the type {type_}, whose definition is unknown")
+    value, written = message, expression.topic
+    for step in expression.path:
+        value = _select_step(value, step, written, expression)
+        written += f"[{step}]" if isinstance(step, int) else f".{step}"
+    return value
+
+
 def field_value(message: Any, expression: FieldExpression, type_: str) -> float:
     """Return the value of a numeric field.
 
@@ -49,21 +70,17 @@ def field_value(message: Any, expression: FieldExpression, type_: str) -> float:
         PlotError: The field does not exist or is not a number.
         NoElementError: A sequence is too short for an index.
     """
-    if isinstance(message, bytes):
-        raise PlotError(f"{expression.text}: the messages have the type {type_}, whose definition is unknown")
-    value, written = message, expression.topic
-    for step in expression.path:
-        value = _select_step(value, step, written, expression)
-        written += f"[{step}]" if isinstance(step, int) else f".{step}"
+    value = field_content(message, expression, type_)
     if isinstance(value, bool | int | float | np.number | np.bool_):
         return float(value)
     if isinstance(value, str):
         raise PlotError(f"{expression.text} is a string, not a number: {value[:40]!r}")
     names = field_names(value)
     if names:
-        hint = f"Choose a field: {join_names(f'{written}.{name}' for name in names)}."
+        hint = f"Choose a field: {join_names(f'{expression.text}.{name}' for name in names)}."
         raise PlotError(f"{expression.text} is a message, not a number", hint=hint)
-    raise PlotError(f"{expression.text} is a sequence, not a number", hint=f"Choose an element, such as {written}[0].")
+    hint = f"Choose an element, such as {expression.text}[0]."
+    raise PlotError(f"{expression.text} is a sequence, not a number", hint=hint)
 
 
 def _select_step(value: Any, step: str | int, written: str, expression: FieldExpression) -> Any:

@@ -106,8 +106,10 @@ def run_with_log():
         entry = log(level=30, name=EVIL, msg=f"{EVIL} {i}")
         entry.stamp.sec, entry.stamp.nanosec = divmod(START + i * SECOND, SECOND)
         run.message("/rosout", "rcl_interfaces/msg/Log", entry, START + i * SECOND + MS)
-    text = find("std_msgs/msg/String")(data=EVIL)
-    run.message("/text", "std_msgs/msg/String", text, START + SECOND)
+    text = find("std_msgs/msg/String")
+    run.message("/text", "std_msgs/msg/String", text(data=EVIL), START + SECOND)
+    for i, state in enumerate(("idle", "driving", "driving", EVIL)):
+        run.message("/state", "std_msgs/msg/String", text(data=state), START + (i + 1) * SECOND)
     return run
 
 
@@ -149,7 +151,7 @@ def test_the_panels_of_a_recording(view, open_page, tmp_path):
     problem = page.raw.locator("#curves .curve[data-state=error]")
     assert "is neither two frames nor a topic" in problem.inner_text()
     with page.raw.expect_download() as download:
-        page.raw.get_by_text("CSV", exact=True).click()
+        page.raw.locator("#pane-plots").get_by_text("CSV", exact=True).click()
     content = download.value.path().read_text()
     rows = list(csv.reader(io.StringIO(content)))
     assert rows[0] == ["stamp_ns", "odom:base_link.x", EVIL]
@@ -157,7 +159,38 @@ def test_the_panels_of_a_recording(view, open_page, tmp_path):
     with page.raw.expect_download() as download:
         page.raw.get_by_text("PNG", exact=True).click()
     assert download.value.path().read_bytes().startswith(b"\x89PNG")
+    for name in ("plots", "message", "log"):
+        page.raw.locator(f"#pane-{name} .icon-button[title^=Close]").last.click()
+    check_states_and_table(page)
     assert page.evaluate("window.hacked") is None
+
+
+def check_states_and_table(page):
+    """Show the states of a field and the last messages of its topic, at the time that is clicked."""
+    page.key("q")
+    page.raw.fill("#pane-states input", "/state.data")
+    page.key("Enter")
+    page.wait(lambda: page.texts("#states .state-value") == [EVIL], "the state at 4 s")
+    box = page.raw.locator("#states canvas").bounding_box()
+    page.raw.mouse.click(box["x"] + 0.4 * box["width"], box["y"] + 5)  # 2.4 s of 6 s
+    page.wait(lambda: page.texts("#states .state-value") == ["driving"], "the state at 2.4 s")
+    assert page.raw.locator("#states li").get_attribute("data-state") == "ok"
+    colors = page.evaluate("""() => {
+        const canvas = document.querySelector("#states canvas");
+        return [0.1, 0.25, 0.4, 0.6, 0.9].map((part) =>
+            [...canvas.getContext("2d").getImageData(part * canvas.width, 2, 1, 1).data].join());
+    }""")
+    before, idle, driving, evil, after = colors
+    assert len({before, idle, driving, evil}) == 4
+    assert before == after, "nothing is drawn before the first and after the last message"
+    page.key("Escape")
+    page.key("x")
+    page.raw.fill("#pane-table input", "/state")
+    page.key("Enter")
+    page.wait(lambda: page.texts("#table-rows tr td:last-child") == ["driving", "idle"], "the rows up to the playhead")
+    page.raw.locator("#table-rows button").last.click()
+    page.wait(lambda: page.texts("#table-rows tr td:last-child") == ["idle"], "the row at 1 s")
+    page.wait(lambda: page.texts("#states .state-value") == ["idle"], "the state at 1 s")
 
 
 @pytest.mark.slow

@@ -192,6 +192,30 @@ export class Displays {
       });
   }
 
+  /** All displays and groups as text, which `restore` reads. */
+  snapshot(): string {
+    return JSON.stringify({ displays: this.list.map(({ config }) => config), groups: this.groups });
+  }
+
+  /** Shows the displays of a snapshot again. Those that are the same stay as they are. */
+  restore(snapshot: string): void {
+    const { displays, groups } = JSON.parse(snapshot) as { displays: DisplayConfig[]; groups: RvizGroup[] };
+    this.automatic = false;
+    this.groups = groups;
+    const kept = [...this.list];
+    const restored = displays.map((config) => {
+      const text = JSON.stringify(config);
+      const same = kept.findIndex((display) => JSON.stringify(display.config) === text);
+      return same < 0 ? null : (kept.splice(same, 1)[0] as Display);
+    });
+    for (const display of kept) this.discard(display);
+    this.list = restored.filter((display) => display !== null);
+    const order = restored.map((display, i) => display ?? this.create(displays[i] as DisplayConfig));
+    this.list = order.filter((display) => display !== null);
+    for (const robot of this.model.robots.values()) this.assignRobot(robot);
+    this.changed();
+  }
+
   /** The topics of enabled displays, with the options of their subscriptions. */
   get shownTopics(): { topic: string; options: DisplayOptions }[] {
     return this.list.flatMap((display) => {

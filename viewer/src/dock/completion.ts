@@ -29,8 +29,8 @@ export class CompletedInput {
     label: string,
     placeholder: string,
     private readonly act: (text: string) => void,
+    id = `completion-${kind}`,
   ) {
-    const id = `completion-${kind}`;
     this.list = h("ul", { class: "completions", id, role: "listbox", hidden: true });
     this.input = h("input", {
       type: "text",

@@ -6,6 +6,7 @@ import { remember, remembered } from "../util/storage";
 
 const PHONE = "(max-width: 760px)";
 const MIN_SIZE_PX = 120;
+const KEY_STEP_PX = 20;
 /** The share of the window that the scene keeps. */
 const SCENE_SHARE = 0.25;
 
@@ -21,7 +22,13 @@ export interface Pane {
 
 export class Dock {
   private readonly sections = new Map<string, HTMLElement>();
-  private readonly handle = h("div", { class: "dock-handle", aria: { hidden: "true" } });
+  private readonly handle = h("div", {
+    class: "dock-handle",
+    role: "separator",
+    tabindex: "0",
+    aria: { label: "Size of the panels" },
+  });
+  private size = 0;
 
   constructor(
     private readonly root: HTMLElement,
@@ -55,9 +62,16 @@ export class Dock {
     this.setSide(!document.body.classList.contains("dock-side"));
   }
 
+  /** Shows exactly these panels, at the place and with the size of the last session or of a saved view. */
+  restore(wanted: readonly string[]): void {
+    this.setSide(remembered("dock-side", false));
+    for (const { id } of this.panes) this.show(id, wanted.includes(id));
+  }
+
   private setSide(side: boolean): void {
     document.body.classList.toggle("dock-side", side);
     remember("dock-side", side);
+    this.handle.setAttribute("aria-orientation", side ? "vertical" : "horizontal");
     this.setSize(remembered(side ? "dock-width" : "dock-height", side ? 460 : 300));
   }
 
@@ -80,8 +94,8 @@ export class Dock {
   private setSize(size: number): void {
     const side = document.body.classList.contains("dock-side");
     const most = (1 - SCENE_SHARE) * (side ? innerWidth : innerHeight);
-    const limited = Math.max(MIN_SIZE_PX, Math.min(most, size));
-    document.documentElement.style.setProperty(side ? "--dock-width" : "--dock-height", `${limited}px`);
+    this.size = Math.max(MIN_SIZE_PX, Math.min(most, size));
+    document.documentElement.style.setProperty(side ? "--dock-width" : "--dock-height", `${this.size}px`);
   }
 
   private listen(): void {
@@ -92,6 +106,15 @@ export class Dock {
         ? bounds.right - event.clientX
         : bounds.bottom - event.clientY;
     };
+    handle.addEventListener("keydown", (event) => {
+      const side = document.body.classList.contains("dock-side");
+      const [larger, smaller] = side ? ["ArrowLeft", "ArrowRight"] : ["ArrowUp", "ArrowDown"];
+      const step = event.key === larger ? KEY_STEP_PX : event.key === smaller ? -KEY_STEP_PX : 0;
+      if (!step) return;
+      this.setSize(this.size + step);
+      remember(side ? "dock-width" : "dock-height", this.size);
+      event.preventDefault();
+    });
     handle.addEventListener("pointerdown", (event) => {
       handle.setPointerCapture(event.pointerId);
       const move = (at: PointerEvent): void => this.setSize(sizeAt(at));

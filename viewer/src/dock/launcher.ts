@@ -7,14 +7,16 @@ import { remember, remembered } from "../util/storage";
 import { toast } from "../util/toast";
 import type { Dock } from "./dock";
 
-export type PaneId = "plots" | "message" | "log" | "graph" | "control";
+export type PaneId = "plots" | "states" | "message" | "table" | "log" | "graph" | "control";
 
 /** Makes the dock; `onChange` is called with the ids of the open panels. */
 export type MakeDock = (root: HTMLElement, onChange: (shown: string[]) => void) => Dock;
 
 const PANES: readonly (readonly [id: PaneId, text: string, detail: string, key: string])[] = [
   ["plots", "Plots", "Poses, fields, rates and delays over time", "c"],
+  ["states", "States", "Strings, flags and enums of a topic over time", "q"],
   ["message", "Message inspector", "The fields of the newest message", "i"],
+  ["table", "Table", "The last messages of a topic, one row each", "x"],
   ["log", "Log", "Messages on /rosout", "e"],
   ["graph", "Nodes and topics", "Who publishes and subscribes to what", "r"],
   ["control", "Control", "Publish, call services, set parameters, send goals, drive", "j"],
@@ -37,7 +39,7 @@ export class DockLauncher {
   restore(): void {
     const wanted = linked("panel").length ? linked("panel") : remembered<string[]>("panes", []);
     if (linked("plot").length && !wanted.includes("plots")) wanted.push("plots");
-    for (const [id] of PANES) if (wanted.includes(id)) this.show(id);
+    if (this.dock || wanted.length) this.use((dock) => dock.restore(wanted));
   }
 
   menu(): (readonly [text: string, detail: string, act: () => void])[] {
@@ -58,10 +60,6 @@ export class DockLauncher {
       dock.show(id, true);
       if (missed) this.model.emit(event, text);
     });
-  }
-
-  private show(id: PaneId): void {
-    this.use((dock) => dock.show(id, true));
   }
 
   private toggle(id: PaneId): void {

@@ -13,6 +13,7 @@ import type {
   CurveStatus,
   DisplayMessage,
   DisplayStatus,
+  FieldStates,
   FindingEntries,
   Hello,
   Inspection,
@@ -35,6 +36,7 @@ import type {
   FrameUpdate,
   Timeline,
   DisplayTopic,
+  TopicTable,
   TreeFrame,
   UploadProgress,
   Widget,
@@ -66,6 +68,8 @@ export interface ModelEvents {
   curve: CurveStatus;
   curves: Curves;
   inspection: Inspection;
+  table: TopicTable;
+  states: FieldStates;
   log: LogEntries;
   graph: NodeGraph;
   completions: Completions;

@@ -18,6 +18,7 @@ export interface BarActions {
   open(): void;
   togglePanel(): void;
   saveImage(): void;
+  recordMovie(): void;
   saveReplay(): void;
   /** The panels beside the scene. */
   panes: readonly MenuItem[];
@@ -58,6 +59,7 @@ export class Bar {
       ...(actions.panes.length ? [menu("chart", "Panels", actions.panes)] : []),
       menu("download", "Export", [
         ["Image (PNG)", "The scene as it is displayed", actions.saveImage],
+        ["Movie", "Record the scene, until you stop it. Key: Shift m", actions.recordMovie],
         ...(live
           ? ([["Replay (HTML)", "A single file that plays without a server", actions.saveReplay]] as const)
           : []),

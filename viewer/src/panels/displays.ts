@@ -68,14 +68,17 @@ export class DisplaysPanel {
 
   private render(): void {
     const current = new Set(this.displays.list.map((display) => display.id));
+    // A display that was made again, for example by undoing a change, keeps its open options.
+    const open = new Set<string>();
     for (const [id, card] of this.cardsById)
       if (!current.has(id)) {
+        if (card.body) open.add(card.display.config.name);
         card.element.remove();
         this.cardsById.delete(id);
       }
     const placed = new Map<HTMLElement, number>();
     for (const display of this.displays.list) {
-      const card = this.cardsById.get(display.id) ?? this.makeCard(display);
+      const card = this.cardsById.get(display.id) ?? this.makeCard(display, open.has(display.config.name));
       this.place(card.element, display.config.group, placed);
     }
     for (const [group, body] of this.groupBodies)
@@ -115,7 +118,7 @@ export class DisplaysPanel {
     return body;
   }
 
-  private makeCard(display: Display): Card {
+  private makeCard(display: Display, isOpen: boolean): Card {
     const { config } = display;
     const name = h("span");
     const box = h("input", {
@@ -146,6 +149,7 @@ export class DisplaysPanel {
     const element = h("div", { class: "card", data: { display: config.name } }, head, status);
     const card: Card = { display, element, head, name, box, detail, status, body: null };
     this.cardsById.set(display.id, card);
+    if (isOpen) this.toggleOptions(card, title);
     return card;
   }
 

@@ -14,14 +14,18 @@ export async function saveImage(view: View, model: Model): Promise<void> {
   try {
     const image = await view.renderer.image();
     const labeled = await withLabels(image, view);
-    const name = (model.hello?.title || "coframe").replace(/[^\w.-]+/g, "_").slice(0, 60);
-    download(`${name}.png`, labeled);
+    download(`${fileName(model)}.png`, labeled);
   } catch (error) {
     toast("Cannot save the image.", String(error));
   }
 }
 
-/** Draws the labels, which are HTML elements above the canvas, into an image of the canvas. */
+/** The name of a file with what the page shows, without its ending. */
+export function fileName(model: Model): string {
+  return (model.hello?.title || "coframe").replace(/[^\w.-]+/g, "_").slice(0, 60);
+}
+
+/** Draws the labels into an image of the canvas. */
 async function withLabels(blob: Blob, view: View): Promise<Blob> {
   const image = await createImageBitmap(blob);
   const canvas = document.createElement("canvas");
@@ -30,7 +34,12 @@ async function withLabels(blob: Blob, view: View): Promise<Blob> {
   const context = canvas.getContext("2d");
   if (!context) return blob;
   context.drawImage(image, 0, 0);
-  const scale = image.width / view.renderer.width;
+  drawLabels(context, view, image.width / Math.max(1, view.renderer.canvas.clientWidth));
+  return new Promise((resolve) => canvas.toBlob((result) => resolve(result ?? blob), "image/png"));
+}
+
+/** Draws the labels, which are HTML elements above the canvas, onto a copy of the canvas. */
+export function drawLabels(context: CanvasRenderingContext2D, view: View, scale: number): void {
   context.scale(scale, scale);
   const bounds = view.renderer.canvas.getBoundingClientRect();
   for (const label of document.querySelectorAll<HTMLElement>("#labels .label")) {
@@ -52,7 +61,7 @@ async function withLabels(blob: Blob, view: View): Promise<Blob> {
     context.fillStyle = style.color;
     context.fillText(label.textContent ?? "", left, y + box.height / 2);
   }
-  return new Promise((resolve) => canvas.toBlob((result) => resolve(result ?? blob), "image/png"));
+  context.globalAlpha = 1;
 }
 
 /** Saves a replay: sends its settings to the server, then downloads the file. */

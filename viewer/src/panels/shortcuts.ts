@@ -72,7 +72,9 @@ export class Shortcuts {
 
   private press(event: KeyboardEvent): void {
     const arrow = event.key.startsWith("Arrow");
-    if (event.metaKey || event.altKey || event.defaultPrevented || (event.ctrlKey && !arrow)) return;
+    const undo = (event.ctrlKey || event.metaKey) && !event.altKey && /^[zy]$/i.test(event.key);
+    if (!undo && (event.metaKey || event.altKey || (event.ctrlKey && !arrow))) return;
+    if (event.defaultPrevented) return;
     // An open dialog handles its own keys.
     if (document.querySelector("dialog[open]") && !(this.dialog.open && event.key === "?")) return;
     const target = event.target as HTMLElement;
@@ -81,7 +83,12 @@ export class Shortcuts {
     // Sliders, tabs and menus have keys of their own.
     if (arrow && target.matches(OWN_ARROWS)) return;
     if (event.key === " " && target.matches("button, input, summary")) return;
-    const key = arrow ? `${event.ctrlKey ? "Control+" : event.shiftKey ? "Shift+" : ""}${event.key}` : event.key;
+    const isRedo = event.shiftKey || event.key.toLowerCase() === "y";
+    const key = undo
+      ? `Control+${isRedo ? "Z" : "z"}`
+      : arrow
+        ? `${event.ctrlKey ? "Control+" : event.shiftKey ? "Shift+" : ""}${event.key}`
+        : event.key;
     const found = this.shortcuts.find((shortcut) => shortcut.key === key);
     if (!found) return;
     if (typing) target.blur();

@@ -6,6 +6,7 @@ import { remember, remembered } from "../util/storage";
 
 const MIN_WIDTH_PX = 260;
 const MAX_WIDTH_PX = 640;
+const KEY_STEP_PX = 20;
 const PHONE = "(max-width: 760px)";
 
 export interface Tab {
@@ -16,6 +17,7 @@ export interface Tab {
 
 export class Panel {
   private readonly buttons: HTMLButtonElement[];
+  private width = 0;
 
   constructor(
     root: HTMLElement,
@@ -49,9 +51,14 @@ export class Panel {
       ...tabs.map((tab) => tab.body),
       this.handle(),
     );
+    this.restore();
+  }
+
+  /** Shows the panel as in the last session or in a saved view. */
+  restore(): void {
     this.setWidth(remembered("panel-width", 340));
     this.show(!matchMedia(PHONE).matches && remembered("panel-shown", true));
-    this.choose(remembered("tab", tabs[0]?.id ?? ""));
+    this.choose(remembered("tab", this.tabs[0]?.id ?? ""));
   }
 
   choose(id: string): void {
@@ -103,12 +110,18 @@ export class Panel {
   }
 
   private setWidth(width: number): void {
-    const limited = Math.max(MIN_WIDTH_PX, Math.min(MAX_WIDTH_PX, width));
-    document.documentElement.style.setProperty("--panel-width", `${limited}px`);
+    this.width = Math.max(MIN_WIDTH_PX, Math.min(MAX_WIDTH_PX, width));
+    document.documentElement.style.setProperty("--panel-width", `${this.width}px`);
   }
 
   private handle(): HTMLElement {
-    const handle = h("div", { class: "panel-handle", aria: { hidden: "true" } });
+    const label = "Width of the panel";
+    const handle = h("div", {
+      class: "panel-handle",
+      role: "separator",
+      tabindex: "0",
+      aria: { label, orientation: "vertical" },
+    });
     handle.addEventListener("pointerdown", (event) => {
       handle.setPointerCapture(event.pointerId);
       const move = (at: PointerEvent): void => this.setWidth(at.clientX);
@@ -121,6 +134,13 @@ export class Panel {
         },
         { once: true },
       );
+    });
+    handle.addEventListener("keydown", (event) => {
+      const step = event.key === "ArrowRight" ? KEY_STEP_PX : event.key === "ArrowLeft" ? -KEY_STEP_PX : 0;
+      if (!step) return;
+      this.setWidth(this.width + step);
+      remember("panel-width", this.width);
+      event.preventDefault();
     });
     return handle;
   }

@@ -9,6 +9,7 @@ import { copyText, h, iconButton, shorten } from "../util/dom";
 import { link, linked } from "../util/link";
 import { remember, remembered } from "../util/storage";
 import { toast } from "../util/toast";
+import { currentLayout, storeLayout } from "./layout";
 
 const UPDATE_MS = 250;
 const MAX_VIEWS = 50;
@@ -23,6 +24,8 @@ const START: CameraView = {
 interface SavedView {
   name: string;
   view: CameraView;
+  /** The panels; views of earlier versions do not contain them. */
+  layout?: JsonObject;
 }
 
 export class ViewsPanel {
@@ -38,6 +41,7 @@ export class ViewsPanel {
     root: HTMLElement,
     model: Model,
     private readonly view: View,
+    private readonly restoreLayout: () => void,
   ) {
     const saved = remembered<SavedView[]>("views", []);
     this.saved = Array.isArray(saved) ? saved.filter((one) => isView(one.view)) : [];
@@ -94,10 +98,24 @@ export class ViewsPanel {
     try {
       const view = JSON.parse(linked("view")[0] ?? "null") as unknown;
       if (isView(view)) this.apply(view);
+      const layout = JSON.parse(linked("layout")[0] ?? "null") as unknown;
+      if (isObject(layout)) this.applyLayout(layout);
     } catch {
       toast("The view in the address of the page is not valid.");
     }
     link("view", []);
+    link("layout", []);
+  }
+
+  private open({ view, layout }: SavedView): void {
+    this.apply(view);
+    if (isObject(layout)) this.applyLayout(layout);
+  }
+
+  private applyLayout(layout: JsonObject): void {
+    storeLayout(layout);
+    link("panel", []); // The panels of the layout, not those of the address.
+    this.restoreLayout();
   }
 
   private get current(): CameraView {
@@ -146,7 +164,10 @@ export class ViewsPanel {
 
   private save(): void {
     const name = this.name.value.trim() || `View ${this.saved.length + 1}`;
-    this.saved = [...this.saved.filter((one) => one.name !== name), { name, view: this.current }].slice(-MAX_VIEWS);
+    this.saved = [
+      ...this.saved.filter((one) => one.name !== name),
+      { name, view: this.current, layout: currentLayout() },
+    ].slice(-MAX_VIEWS);
     this.name.value = "";
     this.store();
   }
@@ -164,7 +185,7 @@ export class ViewsPanel {
           {},
           h(
             "button",
-            { type: "button", class: "small", on: { click: () => this.apply(one.view) } },
+            { type: "button", class: "small", on: { click: () => this.open(one) } },
             shorten(one.name, MAX_NAME),
           ),
           iconButton("close", `Delete ${shorten(one.name, MAX_NAME)}`, () => {
@@ -178,8 +199,10 @@ export class ViewsPanel {
 
   private async share(): Promise<void> {
     link("view", [JSON.stringify(this.current)]);
+    link("layout", [JSON.stringify(currentLayout())]);
     const address = location.href;
     link("view", []);
+    link("layout", []);
     const ok = await copyText(address);
     toast(
       ok ? "Copied: a link to this view" : "The browser does not allow this page to use the clipboard.",
@@ -197,6 +220,10 @@ function numbersOf(options: JsonObject, prefix = ""): Map<string, number> {
     else if (value && typeof value === "object" && !Array.isArray(value) && !prefix)
       for (const [path, number] of numbersOf(value, `${key}/`)) found.set(path, number);
   return found;
+}
+
+function isObject(value: unknown): value is JsonObject {
+  return typeof value === "object" && value !== null && !Array.isArray(value);
 }
 
 function isView(value: unknown): value is CameraView {

@@ -11,6 +11,7 @@ import { remember, remembered } from "../util/storage";
 import type { Theme } from "../util/theme";
 import { toast } from "../util/toast";
 import { Chart, TIME_AXIS_PX, valueText, type ChartEvents, type ChartStyle } from "./chart";
+import { COLORS } from "./colors";
 import { Curve } from "./curve";
 import { saveCsv, savePng } from "./export";
 import { shownRange, WINDOWS, zoomed, type Range } from "./range";
@@ -19,8 +20,6 @@ const MAX_CURVES = 32;
 const DRAW_INTERVAL_MS = 100;
 const REQUEST_DELAY_MS = 150;
 const MIN_CHART_PX = 70;
-/** Those of `coframe plot`: each has a contrast of at least 3.5 with a white and with a dark background. */
-const COLORS = ["#2f7de1", "#d9542b", "#1f9a5b", "#a45ee0", "#a17a12", "#d6497f", "#128f9e", "#7b7f87"];
 
 export class PlotsPane implements Pane {
   readonly id = "plots";

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 from coframe._output.formatting import rounded_duration
 from coframe.viewer._findings import finding_rows
+from coframe.viewer.clients._history_feeds import StatesFeed, TableFeed
 from coframe.viewer.clients._panel_feeds import panel_feeds
 from coframe.viewer.clients._scripting import NodesFeed, WidgetsFeed
 from coframe.viewer.clients._update import Feed, Update
@@ -275,6 +276,8 @@ def make_feeds(client: ClientState) -> list[Feed]:
         RobotsFeed(client),
         FindingsFeed(client),
         *panel_feeds(client),
+        TableFeed(client),
+        StatesFeed(client),
         WidgetsFeed(client),
         NodesFeed(client),
         FramesFeed(client),

@@ -16,14 +16,14 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
     from concurrent.futures import Future
 
-    from coframe.viewer.clients._panels import ClientPanels, ShownCurve
+    from coframe.viewer.clients._panels import ClientPanels, ShownCurve, WatchedTopic
     from coframe.viewer.clients._state import ClientState
     from coframe.viewer.panels.own_messages import LogLine
     from coframe.viewer.protocol.common import DisplayState
     from coframe.viewer.protocol.server_messages import InspectedField
     from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 
-__all__ = ["panel_feeds"]
+__all__ = ["PanelFeed", "panel_feeds"]
 
 _logger = logging.getLogger("coframe.viewer")
 
@@ -35,7 +35,7 @@ _MAX_LINES = 1000  # maximum number of log messages per update
 _RATE_MESSAGES = 200  # number of messages from which the rate is computed
 
 
-class _PanelFeed:
+class PanelFeed:
     """A feed that does nothing while its panel is closed."""
 
     def __init__(self, client: ClientState) -> None:
@@ -47,7 +47,7 @@ class _PanelFeed:
         return self._client.panels
 
 
-class CurvesFeed(_PanelFeed):
+class CurvesFeed(PanelFeed):
     """The points and statuses of all curves."""
 
     def updates(self, now: float) -> Iterator[Update]:
@@ -85,9 +85,10 @@ class CurvesFeed(_PanelFeed):
 
 
 class _InspectedMessage(NamedTuple):
-    """An inspected message, or why there is none; `key` identifies it and begins with the serial of the topic."""
+    """An inspected message, or why there is none; `key` identifies it."""
 
-    key: tuple[int, object]
+    topic: WatchedTopic | None
+    key: object
     state: DisplayState
     text: str
     message_type: str = ""
@@ -96,57 +97,58 @@ class _InspectedMessage(NamedTuple):
     fields: Sequence[InspectedField] = ()
 
 
-class InspectionFeed(_PanelFeed):
+class InspectionFeed(PanelFeed):
     """The newest message of the inspected topic at the displayed time, which another thread reads."""
 
     def __init__(self, client: ClientState) -> None:
         super().__init__(client)
         self._late_due = 0.0
         self._inspection: Future[_InspectedMessage] | None = None
-        self._shown = _InspectedMessage((0, None), "waiting", "")
+        self._shown = _InspectedMessage(None, None, "waiting", "")
 
     def updates(self, now: float) -> Iterator[Update]:
         """Yield the last message that was read."""
-        panels = self._panels
-        self.due = now + (_INSPECTION_PERIOD if panels.topic else _CLOSED_PERIOD)
-        if not panels.topic:
+        watched = self._panels.inspected
+        self.due = now + (_INSPECTION_PERIOD if watched else _CLOSED_PERIOD)
+        if watched is None:
             return
-        if panels.inspected is None and now >= self._late_due:
+        if watched.messages is None and now >= self._late_due:
             self._late_due = now + _LATE_PERIOD
-            panels.open_inspected()
-        self._read(panels.inspected)
+            watched.open()
+        self._read(watched)
         if self._inspection is not None and self._inspection.done():
             found, self._inspection = self._inspection.result(), None
-            if found.key[0] == panels.serial:
+            if found.topic is watched:
                 self._shown = found
         elif self._inspection is not None:
             self.due = now + _READING_PERIOD
-        publishers = self._publishers()
-        if self._shown.key[0] == panels.serial:
-            yield Update("inspection", (self._shown.key, publishers), partial(self._encode, publishers))
+        publishers = self._publishers(watched.topic)
+        if self._shown.topic is watched:
+            version = (id(watched), self._shown.key, publishers)
+            yield Update("inspection", version, partial(self._encode, publishers))
 
-    def _read(self, messages: TopicMessages | None) -> None:
+    def _read(self, watched: WatchedTopic) -> None:
         """Start to read the message at the displayed time, unless it is already shown."""
-        panels, at = self._panels, self._client.at
+        messages, at = watched.messages, self._client.at
         if messages is None:
-            why = self._missing_message_reason(panels.topic)
-            self._shown = _InspectedMessage((panels.serial, why), "waiting", why)
+            why = watched.missing_reason()
+            self._shown = _InspectedMessage(watched, why, "waiting", why)
             return
         found = messages.at(at)
-        key = (panels.serial, None if found is None else found.key)
+        key = None if found is None else found.key
         if found is None:
             when = "yet" if at == 0 else "before this time"
-            self._shown = _InspectedMessage(key, "waiting", f"no message {when}", messages.type)
-        elif key != self._shown.key and self._inspection is None:
+            self._shown = _InspectedMessage(watched, key, "waiting", f"no message {when}", messages.type)
+        elif (watched, key) != (self._shown.topic, self._shown.key) and self._inspection is None:
             executor = self._client.viewer.executor
-            self._inspection = executor.submit(_read_message, key, panels.topic, messages, found, at)
+            self._inspection = executor.submit(_read_message, watched, messages, found, at)
 
     def _encode(self, publishers: Sequence[str]) -> str:
         shown = self._shown
         return encode(
             Inspection(
                 type="inspection",
-                topic=self._panels.topic,
+                topic=shown.topic.topic if shown.topic else "",
                 message_type=shown.message_type,
                 state=shown.state,
                 text=shown.text,
@@ -157,35 +159,27 @@ class InspectionFeed(_PanelFeed):
             )
         )
 
-    def _missing_message_reason(self, topic: str) -> str:
-        connection = self._client.viewer.source.connection
-        if self._panels.problem:
-            return self._panels.problem
-        if connection is None:
-            return f"there are no messages on {topic}"
-        types = [one.ros_type for one in connection.participant.publishers(topic)]
-        return f"the definition of {types[0]} is unknown" if types else f"no node publishes {topic}"
-
-    def _publishers(self) -> tuple[str, ...]:
+    def _publishers(self, topic: str) -> tuple[str, ...]:
         connection = self._client.viewer.source.connection
         if connection is None:
             return ()
-        publishers = connection.participant.publishers(self._panels.topic)
+        publishers = connection.participant.publishers(topic)
         return tuple(sorted({f"{one.namespace.rstrip('/')}/{one.node}" for one in publishers}))
 
 
 def _read_message(
-    key: tuple[int, object], topic: str, messages: TopicMessages, message: StampedMessage, at: int
+    watched: WatchedTopic, messages: TopicMessages, message: StampedMessage, at: int
 ) -> _InspectedMessage:
     """Return the content of a message, or an error message, because a message may contain anything."""
     from coframe.viewer.panels.message_fields import message_rows  # noqa: PLC0415 - needs the message classes
 
-    failed = _InspectedMessage(key, "error", "", messages.type, message.time, _rate(messages, at))
+    rate = _rate(messages, at)
+    failed = _InspectedMessage(watched, message.key, "error", "", messages.type, message.time, rate)
     try:
         content: Any = message.read()
         if isinstance(content, bytes):
             return failed._replace(text=f"{len(content)} bytes; the definition of {messages.type} is unknown")
-        return failed._replace(state="ok", fields=message_rows(topic, content))
+        return failed._replace(state="ok", fields=message_rows(watched.topic, content))
     except (CoframeError, ValueError) as error:
         return failed._replace(text=f"the message cannot be read: {error}")
     except Exception as error:
@@ -193,7 +187,7 @@ def _read_message(
         return failed._replace(text=f"the message cannot be read: {type(error).__name__}: {error}")
 
 
-class LogFeed(_PanelFeed):
+class LogFeed(PanelFeed):
     """The log messages that the client does not have."""
 
     def updates(self, now: float) -> Iterator[Update]:
@@ -225,7 +219,7 @@ class LogFeed(_PanelFeed):
         )
 
 
-class GraphFeed(_PanelFeed):
+class GraphFeed(PanelFeed):
     """The graph of nodes and topics."""
 
     def updates(self, now: float) -> Iterator[Update]:

@@ -30,6 +30,14 @@ async def _inspect(client: ClientState, request: client_messages.InspectTopic) -
     client.panels.inspect(request.topic)
 
 
+async def _show_table(client: ClientState, request: client_messages.ShowTable) -> None:
+    client.panels.show_table(request.topic, request.rows)
+
+
+async def _show_states(client: ClientState, request: client_messages.ShowStates) -> None:
+    client.panels.set_states(request.fields)
+
+
 async def _show_log(client: ClientState, request: client_messages.ShowLog) -> None:
     client.panels.show_log(shown=request.shown)
 
@@ -60,4 +68,6 @@ PANEL_HANDLERS: dict[type, Callable[[ClientState, Any], Awaitable[ServerMessage 
     client_messages.SetCurves: _set_curves,
     client_messages.ShowGraph: _show_graph,
     client_messages.ShowLog: _show_log,
+    client_messages.ShowStates: _show_states,
+    client_messages.ShowTable: _show_table,
 }

@@ -35,6 +35,7 @@ MAX_POINTS = 4_000_000
 MAX_DECAY = 3600.0
 """Seconds."""
 MAX_CURVE_POINTS = 20_000
+MAX_TABLE_ROWS = 500
 MAX_IMAGE_PIXELS = 1 << 25
 DEFAULT_IMAGE_PIXELS = 640 * 480
 
@@ -374,6 +375,31 @@ class InspectTopic:
 
 
 @dataclass(frozen=True)
+class ShowTable:
+    """Shows the last messages of a topic as a table instead of the previous one; "" closes the table."""
+
+    type: ClassVar[str] = "table"
+    topic: str
+    rows: Annotated[int, Clamp(1, MAX_TABLE_ROWS)] = 100
+
+
+@dataclass(frozen=True)
+class StateRequest:
+    """A field whose states the page shows, under an id of its choice. The expression is one of ``coframe plot``."""
+
+    id: Id
+    expression: str
+
+
+@dataclass(frozen=True)
+class ShowStates:
+    """Sets the fields whose states over time the page shows; fields that are no longer listed are removed."""
+
+    type: ClassVar[str] = "states"
+    fields: list[StateRequest]
+
+
+@dataclass(frozen=True)
 class ShowLog:
     """Starts or stops sending log messages."""
 
@@ -496,6 +522,8 @@ ClientMessage: TypeAlias = (
     | RequestCodePage
     | SetCurves
     | InspectTopic
+    | ShowTable
+    | ShowStates
     | ShowLog
     | ShowGraph
     | RequestCompletions

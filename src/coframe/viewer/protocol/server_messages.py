@@ -434,6 +434,54 @@ class Inspection(TypedDict):
     fields: list[InspectedField]
 
 
+class TableColumn(TypedDict):
+    """A field that has a value of its own; ``path`` is relative to the message."""
+
+    path: str
+    type: str
+
+
+class TableRow(TypedDict):
+    """A message; ``key`` increases from message to message, and there is one cell per column."""
+
+    key: int
+    stamp: float
+    cells: list[str]
+
+
+class TopicTable(TypedDict):
+    """The last messages of a topic at the displayed time: new rows, and the ``first`` and ``last`` key of all rows."""
+
+    type: Literal["table"]
+    topic: str
+    message_type: str
+    state: DisplayState
+    text: str
+    columns: list[TableColumn]
+    first: int
+    last: int
+    rows: list[TableRow]
+
+
+class StateChange(TypedDict):
+    """The value of a field from a time on, until the next change."""
+
+    stamp: float
+    text: str
+
+
+class FieldStates(TypedDict):
+    """New changes of a field. ``reset`` discards earlier ones; ``until`` is the time of the last message."""
+
+    type: Literal["states"]
+    id: int
+    state: DisplayState
+    text: str
+    reset: bool
+    until: float | None
+    changes: list[StateChange]
+
+
 class LogEntry(TypedDict):
     """A log message; ``place`` is the file, the function and the line that logged it."""
 
@@ -642,6 +690,8 @@ ServerMessage: TypeAlias = (
     | CodePage
     | CurveStatus
     | Inspection
+    | TopicTable
+    | FieldStates
     | LogEntries
     | NodeGraph
     | Completions

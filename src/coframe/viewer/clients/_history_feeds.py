@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The feeds of the panels that show several messages of a topic: the table, and the states of fields over time."""
+
+from __future__ import annotations
+
+import logging
+from functools import partial
+from typing import TYPE_CHECKING
+
+from coframe.errors import CoframeError
+from coframe.viewer.clients._panel_feeds import PanelFeed
+from coframe.viewer.clients._update import Update
+from coframe.viewer.protocol.encoding import encode
+from coframe.viewer.protocol.server_messages import FieldStates, StateChange, TableColumn, TableRow, TopicTable
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+    from concurrent.futures import Future
+
+    from coframe.viewer.clients._panels import ShownStates, WatchedTopic
+    from coframe.viewer.clients._state import ClientState
+    from coframe.viewer.panels.states import StateHistory
+    from coframe.viewer.panels.table import TableMessage
+    from coframe.viewer.protocol.common import DisplayState
+
+__all__ = ["StatesFeed", "TableFeed"]
+
+_logger = logging.getLogger("coframe.viewer")
+
+# Seconds between updates.
+_TABLE_PERIOD, _STATES_PERIOD, _CLOSED_PERIOD, _READING_PERIOD, _LATE_PERIOD = 0.2, 0.2, 0.25, 0.03, 1.0
+
+
+class TableFeed(PanelFeed):
+    """The last messages of a topic at the displayed time, which another thread reads."""
+
+    def __init__(self, client: ClientState) -> None:
+        super().__init__(client)
+        self._late_due = 0.0
+        self._watched: WatchedTopic | None = None
+        self._columns: list[tuple[str, str]] = []
+        self._sent: set[int] = set()
+        self._reading: Future[list[TableMessage]] | None = None
+
+    def updates(self, now: float) -> Iterator[Update]:
+        """Yield new rows, and the keys of all rows."""
+        watched = self._panels.table
+        self.due = now + (_TABLE_PERIOD if watched else _CLOSED_PERIOD)
+        if watched is not self._watched:
+            self._watched, self._columns, self._sent, self._reading = watched, [], set(), None
+        if watched is None:
+            return
+        if watched.messages is None and now >= self._late_due:
+            self._late_due = now + _LATE_PERIOD
+            watched.open()
+        if watched.messages is None:
+            why = watched.missing_reason()
+            yield Update("table", (id(watched), why), partial(self._encode, watched, "waiting", why, [], []))
+            return
+        shown = watched.messages.before(self._client.at, self._panels.table_rows)
+        keys = [one.key for one in shown]
+        new = [one for one in shown if one.key not in self._sent]
+        if self._reading is not None:
+            if not self._reading.done():
+                self.due = now + _READING_PERIOD
+                return
+            rows, self._reading = self._reading.result(), None
+            self._sent = (self._sent | {row.key for row in rows}).intersection(keys)
+            yield Update(None, None, partial(self._encode, watched, "ok", "", keys, rows))
+        elif new:
+            from coframe.viewer.panels.table import read_rows  # noqa: PLC0415 - needs the message classes
+
+            self._reading = self._client.viewer.executor.submit(read_rows, new)
+            self.due = now + _READING_PERIOD
+        else:
+            self._sent.intersection_update(keys)
+            text = "" if keys else "no message yet"
+            span = (id(watched), keys[:1], keys[-1:])
+            yield Update("table", span, partial(self._encode, watched, "ok" if keys else "waiting", text, keys, []))
+
+    def _encode(
+        self, watched: WatchedTopic, state: DisplayState, text: str, keys: list[int], rows: Sequence[TableMessage]
+    ) -> str:
+        for row in rows[-1:]:
+            self._columns = self._columns or list(row.cells)
+        origin = self._client.origin
+        return encode(
+            TopicTable(
+                type="table",
+                topic=watched.topic,
+                message_type=watched.messages.type if watched.messages else "",
+                state=state,
+                text=text,
+                columns=[TableColumn(path=path, type=type_) for path, type_ in self._columns],
+                first=keys[0] if keys else 0,
+                last=keys[-1] if keys else 0,
+                rows=[
+                    TableRow(
+                        key=row.key,
+                        stamp=float(row.time - origin),
+                        cells=[row.cells.get(column, "") for column in self._columns],
+                    )
+                    for row in rows
+                ],
+            )
+        )
+
+
+class StatesFeed(PanelFeed):
+    """The states of fields, which another thread reads one field after the other."""
+
+    def __init__(self, client: ClientState) -> None:
+        super().__init__(client)
+        self._late_due = 0.0
+        self._reading: tuple[ShownStates, Future[bool]] | None = None
+        self._last = -1
+
+    def updates(self, now: float) -> Iterator[Update]:
+        """Yield the new changes of all fields."""
+        shown = self._panels.states
+        self.due = now + (_STATES_PERIOD if shown else _CLOSED_PERIOD)
+        if not shown:
+            return
+        if now >= self._late_due:
+            self._late_due = now + _LATE_PERIOD
+            for one in shown.values():
+                one.open()
+        self._read(now)
+        for number, one in shown.items():
+            yield from self._changes(number, one)
+
+    def _read(self, now: float) -> None:
+        """Read the next messages of the next field that has new ones."""
+        if self._reading is not None:
+            one, future = self._reading
+            if not future.done():
+                self.due = now + _READING_PERIOD
+                return
+            self._reading = None
+            self._finish(one, future)
+        waiting = {number: one for number, one in self._panels.states.items() if one.history and not one.problem}
+        for number in sorted(waiting, key=lambda number: (number <= self._last, number)):
+            history = waiting[number].history
+            if history is not None and history.done < 1.0:
+                self._last = number
+                self._reading = (waiting[number], self._client.viewer.executor.submit(history.read))
+                self.due = now + _READING_PERIOD
+                return
+
+    def _finish(self, one: ShownStates, future: Future[bool]) -> None:
+        try:
+            future.result()
+        except CoframeError as error:
+            one.problem = f"{error}. {error.hint}".strip().removesuffix(".") + "."
+        except Exception as error:  # An unexpected error in one field must not stop the others.
+            _logger.exception("the states of a field could not be read")
+            one.problem = f"The states cannot be read: {type(error).__name__}: {error}."
+
+    def _changes(self, number: int, one: ShownStates) -> Iterator[Update]:
+        history = one.history
+        state, text = self._status(one, history)
+        total = history.total if history else 0
+        until = history.until if history else None
+        is_new = one.seen is None or total > one.seen
+        if is_new and history is not None:
+            changes = history.since(one.seen or 0)
+            reset, one.seen = one.seen is None, total
+            yield Update(None, None, partial(self._encode, number, (state, text), until, changes, reset=reset))
+        version = (id(one), state, text, until)
+        yield Update(("states", number), version, partial(self._encode, number, (state, text), until, (), reset=False))
+
+    def _status(self, one: ShownStates, history: StateHistory | None) -> tuple[DisplayState, str]:
+        if one.problem:
+            return "error", one.problem
+        if history is None:
+            return "waiting", one.watched.missing_reason() if one.watched else ""
+        if history.until is None:
+            return "waiting", "no message has this element" if history.skipped else "no message yet"
+        if history.done < 1.0 and self._client.viewer.source.recording is not None:
+            return "waiting", f"reading the recording: {100 * history.done:.0f} %"
+        return "ok", f"{history.skipped} messages have no value" if history.skipped else ""
+
+    def _encode(
+        self,
+        number: int,
+        status: tuple[DisplayState, str],
+        until: int | None,
+        changes: Sequence[tuple[int, str]],
+        *,
+        reset: bool,
+    ) -> str:
+        origin = self._client.origin
+        return encode(
+            FieldStates(
+                type="states",
+                id=number,
+                state=status[0],
+                text=status[1],
+                reset=reset,
+                until=None if until is None else float(until - origin),
+                changes=[StateChange(stamp=float(time - origin), text=text) for time, text in changes],
+            )
+        )

@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The states of a field over time: strings, flags, and numbers with the names of their constants."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import replace
+from itertools import islice
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from coframe.errors import PlotError
+from coframe.plotting.expressions import FieldExpression, parse_expression
+from coframe.plotting.values import NoElementError, field_content, field_names
+
+if TYPE_CHECKING:
+    from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
+
+__all__ = ["StateHistory", "StateSpan", "parse_state_field", "state_text"]
+
+_MAX_CHANGES = 5000
+_MAX_TEXT = 100
+_BATCH = 500  # messages per call, so that a long recording can be interrupted
+
+
+class StateSpan(NamedTuple):
+    """The value of a field from a time in nanoseconds until the next change."""
+
+    time: int
+    text: str
+
+
+def parse_state_field(text: str) -> FieldExpression:
+    """Return a field of a topic.
+
+    Raises:
+        PlotError: The text is not a field of a topic.
+    """
+    expression = parse_expression(text)
+    if not isinstance(expression, FieldExpression):
+        raise PlotError(f"{text!r} is not a field of a topic", hint="Write, for example: /state.data")
+    return expression
+
+
+class StateHistory:
+    """The changes of a field, which another thread reads batch by batch.
+
+    Args:
+        field: The field.
+        messages: The messages of its topic.
+
+    Attributes:
+        total: The number of changes that were ever found.
+        until: The time of the last message that was read in nanoseconds, or None before the first one.
+        skipped: The number of messages without a value.
+    """
+
+    def __init__(self, field: FieldExpression, messages: TopicMessages) -> None:
+        self._field, self._messages = field, messages
+        self._changes: deque[StateSpan] = deque(maxlen=_MAX_CHANGES)
+        self._key = 0
+        self.total = self.skipped = 0
+        self.until: int | None = None
+
+    @property
+    def done(self) -> float:
+        """The part of the messages that was read, from 0 to 1."""
+        newest = self._messages.at(0)
+        return 1.0 if newest is None else min(1.0, self._key / newest.key)
+
+    def read(self) -> bool:
+        """Read the next messages, and return whether there were any.
+
+        Raises:
+            PlotError: The field does not exist.
+        """
+        newest = self._messages.at(0)
+        if newest is None or newest.key <= self._key:
+            return False
+        # Keys of a live topic begin late when old messages were dropped; the first known one is the next.
+        for message in self._messages.after(self._key, self._next_key(newest)):
+            self._add(message)
+            self._key = message.key
+        return True
+
+    def since(self, total: int) -> list[StateSpan]:
+        """Return the changes after the first `total` ones, as far as they are kept."""
+        first = max(0, len(self._changes) - (self.total - total))
+        return list(islice(self._changes, first, None))
+
+    def _next_key(self, newest: StampedMessage) -> int:
+        known = self._messages.times()
+        oldest = newest.key - len(known) + 1
+        return min(newest.key, max(self._key, oldest - 1) + _BATCH)
+
+    def _add(self, message: StampedMessage) -> None:
+        try:
+            content = message.read()
+        except ValueError:  # The bytes do not match the type.
+            self.skipped += 1
+            return
+        try:
+            text = state_text(content, self._field, self._messages.type)
+        except NoElementError:
+            self.skipped += 1
+            return
+        if self.until is None or self._changes[-1].text != text:
+            self._changes.append(StateSpan(message.time, text))
+            self.total += 1
+        self.until = message.time
+
+
+def state_text(message: Any, field: FieldExpression, type_: str) -> str:
+    """Return the value of a field as text; numbers are followed by the name of their constant.
+
+    Raises:
+        PlotError: The field does not exist, or has no value of its own.
+        NoElementError: A sequence is too short for an index.
+    """
+    value = field_content(message, field, type_)
+    if isinstance(value, str):
+        return value if len(value) <= _MAX_TEXT else f"{value[:_MAX_TEXT]}…"
+    if isinstance(value, bool | np.bool_):
+        return "true" if value else "false"
+    is_octet = isinstance(value, bytes) and len(value) == 1
+    if isinstance(value, int | np.integer) or is_octet:
+        number = value[0] if isinstance(value, bytes) else int(value)
+        return f"{number} {_constant(message, field, type_, value)}".rstrip()
+    if isinstance(value, float | np.floating):
+        return f"{float(value):.6g}"
+    names = field_names(value)
+    hint = f"Choose a field, such as {field.text}.{names[0]}." if names else ""
+    raise PlotError(f"{field.text} is a {'message' if names else 'sequence'}, not a state", hint=hint)
+
+
+def _constant(message: Any, field: FieldExpression, type_: str, value: Any) -> str:
+    """Return the name of the constant with a value, or "" if none or several have it."""
+    name = field.path[-1]
+    parent = field_content(message, replace(field, path=field.path[:-1]), type_)
+    constants = [key for key, constant in vars(type(parent)).items() if key.isupper() and _is_same(constant, value)]
+    if len(constants) > 1:
+        constants = [key for key in constants if key.startswith(f"{name}_".upper())]
+    return constants[0] if len(constants) == 1 else ""
+
+
+def _is_same(constant: Any, value: Any) -> bool:
+    return type(constant) is type(value) and bool(constant == value)

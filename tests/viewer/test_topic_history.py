@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The table of a topic and the states of its fields, as a page receives them."""
+
+import pytest
+from recordings import START
+from runs import MS, SECOND, Run
+
+import coframe
+from coframe.errors import PlotError
+from coframe.messages import find
+from coframe.viewer.panels.states import parse_state_field, state_text
+
+STATES = ["idle", "idle", "driving", "driving", "driving", "docked", "idle"]
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory):
+    run = Run.healthy(seconds=4)
+    for i, state in enumerate(STATES):
+        at = START + i * SECOND // 2 + MS
+        run.message("/state", "std_msgs/msg/String", find("std_msgs/msg/String")(data=state), at)
+        status = find("action_msgs/msg/GoalStatusArray")()
+        if i > 2:
+            status.status_list.append(find("action_msgs/msg/GoalStatus")(status=2 if i < 5 else 4))
+        run.message("/goals", "action_msgs/msg/GoalStatusArray", status, at)
+    with coframe.open_bag(run.write(tmp_path_factory.mktemp("history"))) as recording:
+        yield recording
+
+
+@pytest.fixture
+def tab(view, open_tab, recording):
+    tab = open_tab(view(recording))
+    tab.has("hello")
+    return tab
+
+
+def states(tab, number):
+    """Return the changes of a field as seconds and texts, once its topic is read, and its last message."""
+    found = []
+
+    def collect(message):
+        if message["id"] == number:
+            found[:] = [] if message["reset"] else found
+            found.extend(
+                (round((one["stamp"] + origin - START) / SECOND, 2), one["text"]) for one in message["changes"]
+            )
+        return message["id"] == number and message["state"] != "waiting" and not message["changes"]
+
+    origin = int(tab.has("hello")["origin"])
+    return tab.wait("states", collect), found
+
+
+def test_the_states_of_a_recorded_field(tab):
+    fields = ["/state.data", "/goals.status_list[0].status", "/state.date", "/tf", "/nothing.data"]
+    tab.send("states", fields=[{"id": i, "expression": text} for i, text in enumerate(fields)])
+    last, changes = states(tab, 0)
+    assert changes == [(0.0, "idle"), (1.0, "driving"), (2.5, "docked"), (3.0, "idle")]
+    origin = int(tab.has("hello")["origin"])
+    assert round((last["until"] + origin - START) / SECOND, 2) == 3.0
+    tab.send("states", fields=[{"id": 1, "expression": fields[1]}])
+    last, changes = states(tab, 1)
+    assert changes == [(1.5, "2 STATUS_EXECUTING"), (2.5, "4 STATUS_SUCCEEDED")]
+    assert last["text"] == "3 messages have no value"
+    for number, text in ((2, "Did you mean 'data'?"), (3, "contains a topic, but no field")):
+        tab.send("states", fields=[{"id": 7 + number, "expression": fields[number]}])
+        assert text in tab.wait("states", lambda one, n=number: one["id"] == 7 + n and one["state"] == "error")["text"]
+    tab.send("states", fields=[{"id": 4, "expression": fields[4]}])
+    assert tab.wait("states", lambda one: one["id"] == 4)["text"] == "there are no messages on /nothing"
+    tab.send("states", fields=[{"id": i, "expression": "/state.data"} for i in range(17)])
+    assert "at most 16 fields" in tab.wait("problem")["text"]
+
+
+def test_the_table_follows_the_displayed_time(tab):
+    origin = int(tab.has("hello")["origin"])
+
+    def show(seconds, first, last):
+        at = START + round(seconds * SECOND) - origin
+        tab.send("time", mode="at", at=at, playing=False, speed=1.0, loop=None)
+        return tab.wait("table", lambda table: (table["first"], table["last"]) == (first, last))
+
+    tab.send("time", mode="at", at=START + SECOND - origin, playing=False, speed=1.0, loop=None)
+    tab.send("table", topic="/state", rows=3)
+    table = tab.wait("table", lambda table: table["rows"])
+    assert table["message_type"] == "std_msgs/msg/String"
+    assert table["columns"] == [{"path": "data", "type": "string"}]
+    assert [(row["key"], row["cells"]) for row in table["rows"]] == [(1, ["idle"]), (2, ["idle"])]
+    table = show(2.2, 3, 5)
+    assert [row["cells"] for row in table["rows"]] == [["driving"]] * 3, "the earlier rows are not in it"
+    assert show(1.7, 2, 4)["rows"][0]["key"] == 2, "a row that was dropped is sent again"
+    tab.send("table", topic="/goals", rows=1)
+    table = tab.wait("table", lambda table: table["topic"] == "/goals" and table["rows"])
+    assert [column["path"] for column in table["columns"]] == ["status_list"], "a sequence is one column"
+    assert table["rows"][0]["cells"] == ["1 element"]
+    tab.send("table", topic="/nothing", rows=1)
+    assert tab.wait("table", lambda table: table["topic"] == "/nothing")["text"] == "there are no messages on /nothing"
+
+
+def test_constants_give_states_their_names():
+    level = find("diagnostic_msgs/msg/DiagnosticStatus")
+    assert state_text(level(level=level.ERROR), parse_state_field("/a.level"), "") == "2 ERROR"
+    marker = find("visualization_msgs/msg/Marker")
+    assert state_text(marker(action=2), parse_state_field("/a.action"), "") == "2", "two constants have this value"
+    assert state_text(marker(frame_locked=True), parse_state_field("/a.frame_locked"), "") == "true"
+    assert state_text(marker(text="x" * 500), parse_state_field("/a.text"), "") == "x" * 100 + "…"
+    with pytest.raises(PlotError, match=r"is a message, not a state"):
+        state_text(marker(), parse_state_field("/a.pose"), "")
+    with pytest.raises(PlotError, match=r"is not a field of a topic"):
+        parse_state_field("odom:base_link.x")
