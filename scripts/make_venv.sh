@@ -69,10 +69,31 @@ if [ "$purpose" != demo ] && ! has_pip "$venv/bin/python"; then
     "$venv/bin/python" -m ensurepip --default-pip >/dev/null
 fi
 if has_pip "$venv/bin/python"; then
-    pip() { "$venv/bin/python" -m pip --quiet --disable-pip-version-check "$@"; }
+    run_pip() { "$venv/bin/python" -m pip --quiet --disable-pip-version-check "$@"; }
 else
-    pip() { "$python" -m pip --python "$venv/bin/python" --quiet --disable-pip-version-check "$@"; }
+    run_pip() { "$python" -m pip --python "$venv/bin/python" --quiet --disable-pip-version-check "$@"; }
 fi
+
+# pip repeats its error for each attempt, and a missing network looks like a missing version: print one sentence instead.
+unreachable="NewConnectionError|ConnectTimeout|NameResolutionError|ReadTimeout|ProxyError|Network is unreachable"
+unreachable="$unreachable|SSLError|Failed to establish a new connection|Temporary failure in name resolution"
+pip() {
+    messages=$(mktemp)
+    if run_pip "$@" 2>"$messages"; then
+        cat "$messages" >&2
+        rm "$messages"
+        return
+    fi
+    if grep -q -E "$unreachable" "$messages"; then
+        index=$("$python" -m pip config get global.index-url 2>/dev/null || echo https://pypi.org/simple)
+        index=$(echo "${PIP_INDEX_URL:-$index}" | sed 's|://[^/@]*@|://|')
+        echo "setup: cannot download Python packages because the package index $index cannot be reached; connect to the network, or set PIP_INDEX_URL to an index that can be reached." >&2
+    else
+        cat "$messages" >&2
+    fi
+    rm "$messages"
+    exit 1
+}
 
 if [ "$purpose" = lint ]; then
     echo "setup: installing the linters" >&2

@@ -58,7 +58,7 @@ BOOSTS = {
     "changelog.md": 0.3,
 }
 _LINK = re.compile(r"(?P<open>!?\[(?P<text>(?:[^\[\]]|\[[^\]]*\])*)\])\((?P<url>[^)\s]+)\)")
-_CODE = re.compile(r"^(?P<fence>```+|~~~+).*?^(?P=fence)|`[^`\n]+`(?!\])", re.MULTILINE | re.DOTALL)
+_CODE = re.compile(r"^(?P<fence>```+|~~~+).*?^(?P=fence)|`[^`\n]+`", re.MULTILINE | re.DOTALL)
 
 
 def generated_pages() -> dict[str, str]:
@@ -138,7 +138,8 @@ def adapt_links(markdown: str, source: str, page: str, repository: str, pages: s
         repository: The address of the repository, or "".
         pages: The paths of all pages and images, relative to docs.
     """
-    code = [match.span() for match in _CODE.finditer(markdown)]
+    # Code that ends before "]" is the text of a link.
+    code = [match.span() for match in _CODE.finditer(markdown) if not markdown.startswith("]", match.end())]
 
     def adapt(match: re.Match[str]) -> str:
         url = match["url"]

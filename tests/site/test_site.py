@@ -26,9 +26,9 @@ TASKS = {
     "poses as a pandas table": ("how-to/pandas.html", ""),
     "nodes do not see each other": (
         "how-to/doctor.html",
-        "nodes-do-not-see-each-other-or-my-program-sees-nothing",
+        "nodes-do-not-discover-each-other-or-my-program-receives-nothing",
     ),
-    "record and replay": ("quickstart.html", "record-and-replay"),
+    "record and replay": ("how-to/record-and-replay.html", ""),
     "two robots one viewer": ("how-to/several-robots.html", "several-robots-in-one-viewer"),
     "extrapolation into the future": ("concepts/conventions.html", "extrapolation-into-the-future"),
     "static transform command line": ("reference/commands/static.html", ""),
