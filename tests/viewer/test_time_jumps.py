@@ -7,7 +7,7 @@ import time
 import pytest
 
 import coframe
-from coframe.viewer.sources._time_jumps import BackwardJumps
+from coframe.viewer.sources._time_jumps import BackwardJumps, TransformStamps
 
 SECOND = 1_000_000_000
 MILLISECOND = 1_000_000
@@ -48,6 +48,21 @@ def test_a_jump_is_noticed_by_comparison_with_the_buffer():
     """The viewer may have been started, or a tab opened, after the jump."""
     reported = fed(BackwardJumps(), [(100 * k, 10_000 + 100 * k) for k in range(20)], newest=20 * SECOND)
     assert any(reported)
+
+
+def test_a_viewer_that_is_behind_sees_no_jump(domain_id):
+    """A busy machine asks for the stamps rarely, and a fast robot fills the queue until then."""
+    period, burst = 5 * MILLISECOND, 150
+    with coframe.connect("robot", domain=domain_id) as robot, coframe.connect("viewer", domain=domain_id) as viewer:
+        stamps = TransformStamps(viewer)
+        stamp = time.time_ns()
+        for number in range(6):
+            for _ in range(burst):
+                stamp += period
+                robot.send("odom", "base", coframe.Transform([stamp % SECOND, 0, 0]), stamp=stamp)
+            viewer.buffer.wait("odom", "base", stamp, timeout="20s")
+            time.sleep(0.05)  # The stamps arrive in another queue.
+            assert stamps.poll(number * SECOND, lambda _, newest=stamp: newest) == 0
 
 
 class Replay:

@@ -20,6 +20,7 @@ export function exposeProbe(model: Model, view: View, displays: Displays, nodes:
   const frames = (): Record<string, FrameProbe> => {
     const { framePoses } = view;
     const found: Record<string, FrameProbe> = {};
+    if (view.shown?.revision !== model.forest.revision) return found; // not drawn yet
     for (let i = 0; i < framePoses.count; i++) {
       const position = [0, 1, 2].map(
         (k) => (framePoses.positions[i * 3 + k] as number) + (framePoses.origin[k] as number),

@@ -326,6 +326,8 @@ export class View {
     const { model, framePoses } = this;
     if (this.pending) for (const listener of this.beforeDrawListeners) listener(this.pending);
     if (!this.changed || !model.frameUpdate) return;
+    // After a change of the tree, the poses belong to the frames before it until the next frame update.
+    if (model.frameUpdate.revision !== model.forest.revision) return;
     this.changed = false;
     this.shown = model.frameUpdate;
     const update = this.adjuster.apply(model.frameUpdate);

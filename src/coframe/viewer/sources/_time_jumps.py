@@ -33,7 +33,9 @@ _INTERVAL_DECAY = 0.9  # per new stamp, so that a single long interval is forgot
 _TOLERANCE = 50 * MILLISECOND
 MAX_SERIES = 10_000
 """How many frames are observed; their names come from the network."""
-_ANY_PUBLISHER = QoS(depth=200, reliable=False)
+MAX_QUEUED = 200
+"""How many messages are queued. Each call takes all of them: those left in the queue would look old at the next one."""
+_ANY_PUBLISHER = QoS(depth=MAX_QUEUED, reliable=False)
 
 
 class _Series:
@@ -119,7 +121,7 @@ class TransformStamps:
         if subscription is None or not subscription.pending():
             return 0
         found: dict[str, int] = {}
-        for sample in subscription.take():
+        for sample in subscription.take(MAX_QUEUED):
             child, stamp = _first_transform(sample.data)
             found[child] = max(stamp, found.get(child, 0))
         jump = 0
