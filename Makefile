@@ -16,7 +16,7 @@ PYTEST := env -u PYTHONDONTWRITEBYTECODE PYTHONPYCACHEPREFIX=$(CURDIR)/build/pyc
 BUILD_TOOLS = $(shell sed -n 's/^requires = \[\(.*\)\]/\1/p' pyproject.toml | sed 's/", "/" "/g')
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build build-split demo test test-zenoh test-fastdds test-shared test-slow test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint licenses audit typecheck format conformance bench generate generate-check page page-check clean
+.PHONY: help setup build build-split demo test test-browser test-zenoh test-fastdds test-shared test-slow test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint licenses audit typecheck format conformance bench generate generate-check page page-check clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -56,6 +56,9 @@ demo: $(DEMO_STAMP) ## show the lab's moving transform tree, live in the browser
 
 test: $(STAMP) ## run the test suite (about ten minutes on two cores)
 	$(PYTEST) --numprocesses 4 --dist loadfile --no-loadscope-reorder $(ARGS)
+
+test-browser: $(STAMP) ## run the tests that look at the viewer's page in Chromium (four minutes on two cores)
+	$(PYTEST) -m "browser and not slow" --numprocesses 4 --dist loadfile tests/viewer/browser $(ARGS)
 
 test-zenoh: $(STAMP) ## run the tests of the running graph over Zenoh instead of DDS (those of routers configure Zenoh themselves)
 	COFRAME_WIRE=zenoh $(PYTEST) --numprocesses 2 --dist loadfile --no-loadscope-reorder \

@@ -25,6 +25,16 @@ TIMEOUT = 20.0  # seconds; the machine may be busy
 START_TIMEOUT = 60.0  # seconds; the process starts at the same time as a browser
 SECOND = 1_000_000_000
 LAB_FRAMES = 11
+# In this file the page is tested in every run of the suite; the others take minutes.
+ALWAYS = "test_frames.py"
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """Leave the tests of this folder to `make test-browser`, but for one file."""
+    for item in items:
+        if item.path.parent == Path(__file__).parent and item.path.name != ALWAYS:
+            item.add_marker("browser")
 
 
 @pytest.fixture(scope="package")
