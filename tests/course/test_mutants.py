@@ -10,6 +10,7 @@ import pytest
 from grades import SOLUTION, lost  # of this folder
 
 from coframe.course.checking import check_folder
+from coframe.course.translation.language import Language
 
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(300)]
 
@@ -210,6 +211,10 @@ def examine(folder, criterion):
     (found,) = check_folder(folder, only=(criterion,))["criteria"]
     facts = lost(found)
     assert all(fact["observed"] for fact in facts.values()), facts
+    shown = [
+        fact[key] for fact in facts.values() for key in ("name", "expected", "observed", "cause", "read") if fact[key]
+    ]
+    assert [text for text in shown if not Language("de").has(text)] == [], "not in German"
     return found["earned"], {fact["cause"] for fact in facts.values()} - {""}, facts
 
 

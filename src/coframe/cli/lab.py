@@ -37,12 +37,15 @@ from coframe.course.roster import read_roster
 from coframe.course.rubric import CRITERIA
 from coframe.course.running import COMPLETE_TREE_FILES, NODE_FILES, programs_of, running, simulation
 from coframe.course.submitted import check_outputs
+from coframe.course.translation.catalogue import languages
+from coframe.course.translation.language import choose_language
 from coframe.errors import CourseError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     from coframe.course.running import NamedCommand
+    from coframe.course.translation.language import Language
 
 __all__ = ["lab"]
 
@@ -65,6 +68,11 @@ roster_option = click.option(
     type=PATH,
     help="CSV file with the students: columns name, email, id, variant; or the worksheet of Moodle, or of Canvas.",
 )
+language_option = click.option(
+    "--language",
+    metavar="CODE",
+    help=f"Language of the course: {', '.join(languages())}. [default: $COFRAME_LANGUAGE, or the locale]",
+)
 lab = CommandGroup(
     "lab",
     help="Work on the lab: create a folder, run its nodes and grade them.\n\nExample: coframe lab new",
@@ -82,7 +90,8 @@ lab = CommandGroup(
 @variant_option
 @roster_option
 @click.option("--zip", "as_zip", is_flag=True, help="With --roster: create a zip file per student, not a folder.")
-def new(folder: Path, variant: int | None, roster: Path | None, as_zip: bool) -> None:
+@language_option
+def new(folder: Path, variant: int | None, roster: Path | None, as_zip: bool, language: str | None) -> None:
     """Create a folder with the files of the lab: stubs with a task in each docstring, an RViz file and a README.
 
     With --roster, FOLDER gets a folder for each student, each with a variant of its own.
@@ -94,16 +103,17 @@ def new(folder: Path, variant: int | None, roster: Path | None, as_zip: bool) ->
     if roster is not None and variant is not None:
         fail("--variant and --roster exclude each other", "The variants are in the roster.", code=2)
     with run_to_completion():
+        chosen = choose_language(language)
         if roster is not None:
             students = read_roster(roster)
-            places = create_class(folder, students, as_zip=as_zip)
+            places = create_class(folder, students, as_zip=as_zip, language=chosen)
             for student, place in zip(students.students, places, strict=True):
                 print(f"created {printable(str(place))} for {printable(student.name)}, variant {student.variant}")
             return
-        for path in create_folder(folder, variant):
-            print(f"created {printable(str(path))}")
+        for path in create_folder(folder, variant, chosen):
+            print(chosen.text(f"created {printable(str(path))}"))
         command = f"coframe lab run {shlex.quote(printable(str(folder)))}"
-        print(f"Next: read {printable(str(folder / 'README.md'))}, then run: {command}")
+        print(chosen.text(f"Next: read {printable(str(folder / 'README.md'))}, then run: {command}"))
 
 
 @lab.command(short_help="Run the nodes of a folder with a simulated robot.")
@@ -137,10 +147,9 @@ def run(
     with run_until_interrupted():
         programs = programs_of(_folder(folder), COMPLETE_TREE_FILES if complete else NODE_FILES)
         programs += simulation(joints=joints, gripper=gripper)
-        print(
-            "Your nodes are running with a simulated robot. Press Ctrl-C to stop them. The viewer shows them:",
-            flush=True,
-        )
+        language = choose_language()
+        sentence = "Your nodes are running with a simulated robot. Press Ctrl-C to stop them. The viewer shows them:"
+        print(language.text(sentence), flush=True)
         _run(programs, seconds, browser=browser, port=port, names_silent=True)
 
 
@@ -185,6 +194,7 @@ def run(
     default=2,
     help="With --all: number of folders to grade in parallel.",
 )
+@language_option
 def check(
     folder: Path | None,
     everyone: bool,
@@ -204,6 +214,7 @@ def check(
     classroom: Path | None,
     record: Path | None,
     jobs: int,
+    language: str | None,
 ) -> None:
     """Grade the nodes in a folder by what they publish: up to 100 points, plus 10 for each of four extensions.
 
@@ -228,13 +239,14 @@ def check(
     if resume and not output:
         fail("--resume continues an earlier run", "Add -o with the file of that run.", code=2)
     with run_to_completion():
+        spoken = choose_language(language)
         if problem := isolation_problem():
-            warn(problem)
+            warn(spoken.text(problem))
         if everyone:
             grade_class(
                 ClassOptions(
                     folder or Path("lab"), output, jobs, variant, chosen, roster, resume, moodle, canvas, column,
-                    feedback, feedback_format, similarity, as_json,
+                    feedback, feedback_format, similarity, as_json, spoken,
                 )
             )  # fmt: skip
             return
@@ -244,13 +256,13 @@ def check(
             with item_progress("checking", len(chosen)) as progress:
                 report = check_folder(student, variant=variant, only=chosen, record=record, progress=progress)
         except CourseError as error:
-            _write_reports(formats.ungraded_report(str(student), str(error)), formatted)
+            _write_reports(formats.ungraded_report(str(student), str(error)), formatted, spoken)
             raise
-        _write_reports(report, formatted)
+        _write_reports(report, formatted, spoken)
         if as_json:
             print(json.dumps(report, indent=2))
             return
-        for line in formats.text(report):
+        for line in formats.text(report, spoken):
             print(printable(line))
 
 
@@ -261,11 +273,13 @@ def _refuse_given(options: dict[str, object], reason: str, hint: str) -> None:
 
 
 def _write_reports(
-    report: dict[str, Any], formatted: Iterable[tuple[Path | None, Callable[[dict[str, Any]], dict[str, Any]]]]
+    report: dict[str, Any],
+    formatted: Iterable[tuple[Path | None, Callable[[dict[str, Any], Language], dict[str, Any]]]],
+    language: Language,
 ) -> None:
     for path, convert in formatted:
         if path is not None:
-            write_complete(path, f"{json.dumps(convert(report), indent=2)}\n".encode())
+            write_complete(path, f"{json.dumps(convert(report, language), indent=2)}\n".encode())
 
 
 @lab.command(short_help="Write a package that grades submissions elsewhere.")
@@ -273,13 +287,14 @@ def _write_reports(
 @click.option("--output", "-o", metavar="FOLDER", type=PATH, required=True, help="Folder for the files of the package.")
 @click.option("--wheel", metavar="FILE", type=PATH, required=True, help="Wheel of coframe, which the package installs.")
 @variant_option
-def autograder(platform: str, output: Path, wheel: Path, variant: int | None) -> None:
+@language_option
+def autograder(platform: str, output: Path, wheel: Path, variant: int | None, language: str | None) -> None:
     """Write a complete autograder for Gradescope or GitHub Classroom, or a Docker image that grades a class.
 
     Example: coframe lab autograder gradescope -o autograder --wheel dist/coframe-1.0-cp312-cp312-linux_x86_64.whl
     """
     with run_to_completion():
-        for path in write_autograder(platform, output, wheel, variant):
+        for path in write_autograder(platform, output, wheel, variant, choose_language(language)):
             print(f"created {printable(str(path))}")
 
 
@@ -293,6 +308,7 @@ def autograder(platform: str, output: Path, wheel: Path, variant: int | None) ->
 )
 @click.option("--random", "seed", metavar="SEED", help="Draw the fault that belongs to this text, for an examination.")
 @click.option("--answer", metavar="FAULT", help="Check this answer instead of starting the system.")
+@language_option
 @click.option("--browser/--no-browser", help="Open the viewer in the browser; its findings are a hint.")
 @port_option
 @duration_option
@@ -300,6 +316,7 @@ def break_(
     number: int | None,
     seed: str | None,
     answer: str | None,
+    language: str | None,
     browser: bool,
     port: int | None,
     duration: NonNegativeDuration | None,
@@ -316,13 +333,14 @@ def break_(
         fail("give either a number or --random SEED", f"Numbers: 1 to {len(FAULTS)}.", code=2)
     chosen = draw(seed or "") if number is None else number
     words = f"--random {shlex.quote(seed or '')}" if number is None else f"{number}"
+    spoken = choose_language(language)
     if answer is not None:
-        _print_verdict(chosen, answer)
+        _print_verdict(chosen, answer, spoken)
         return
     seconds = None if duration is None else duration.seconds
-    print(f"System {words} is running in this ROS domain. What is wrong with it? Stop it with Ctrl-C.")
-    print(f'Then answer with: coframe lab break {words} --answer "FAULT", where FAULT is one of:')
-    print(f"  {', '.join(sorted(each.name for each in FAULTS))}", flush=True)
+    print(spoken.text(f"System {words} is running in this ROS domain. What is wrong with it? Stop it with Ctrl-C."))
+    print(spoken.text(f'Then answer with: coframe lab break {words} --answer "FAULT", where FAULT is one of:'))
+    print(f"  {_fault_names(spoken)}", flush=True)
     with run_until_interrupted():
         _run(FAULTS[chosen - 1].programs, seconds, browser=browser, port=port)
 
@@ -338,19 +356,22 @@ def break_(
 @click.option("--output", "-o", metavar="FOLDER", type=PATH, help="Write all chapters as web pages with images.")
 @click.option("--slides", is_flag=True, help="With -o: also write slides.html, a slide for each section.")
 @click.option("--browser/--no-browser", default=True, help="With -o: open the pages in the browser.")
+@language_option
 def handbook(
     chapter: int | None,
     output: Path | None,
     slides: bool,
     browser: bool,
+    language: str | None,
 ) -> None:
     """Print the table of contents or a chapter of the handbook, or write the handbook as web pages.
 
     Example: coframe lab handbook -o handbook
     """
     with run_to_completion():
+        spoken = choose_language(language)
         if output is not None:
-            _write_handbook(output, chapter, slides=slides, browser=browser)
+            _write_handbook(output, chapter, spoken, slides=slides, browser=browser)
             return
         if slides:
             fail("--slides writes a file", "Add -o FOLDER.", code=2)
@@ -361,15 +382,18 @@ def handbook(
 
         file = contents() if chapter is None else found[chapter].file
         console = report_console()
-        console.print(Markdown(terminal_text(file), hyperlinks=False), width=min(console.width, _HANDBOOK_WIDTH))
+        console.print(
+            Markdown(terminal_text(file, spoken), hyperlinks=False), width=min(console.width, _HANDBOOK_WIDTH)
+        )
         if chapter is None:
-            print(
+            hint = (
                 "Read a chapter: coframe lab handbook 1. With images, in the browser: coframe lab handbook -o handbook"
             )
+            print(spoken.text(hint))
 
 
-def _write_handbook(folder: Path, chapter: int | None, *, slides: bool, browser: bool) -> None:
-    first = write_pages(folder, slides=slides)
+def _write_handbook(folder: Path, chapter: int | None, language: Language, *, slides: bool, browser: bool) -> None:
+    first = write_pages(folder, slides=slides, language=language)
     page = first if chapter is None else next(folder.glob(f"{chapter:02d}_*.html"), first)
     print(page.resolve())
     if browser and sys.stdout.isatty():
@@ -410,7 +434,7 @@ def _run(
             first = FirstOutput(ros, programs)
             first.wait(closed, _FIRST_OUTPUT, _MAX_STARTUP if seconds is None else min(seconds, _MAX_STARTUP))
             for name, sentence in first.missing():
-                write(name, sentence)
+                write(name, choose_language().text(sentence))
             first.close()
             seconds = None if seconds is None else max(0.0, seconds - (time.monotonic() - started))
         closed.wait(seconds)
@@ -418,11 +442,15 @@ def _run(
         raise BrokenPipeError
 
 
-def _print_verdict(number: int, answer: str) -> None:
-    given, fault = named_fault(answer), FAULTS[number - 1]
+def _fault_names(language: Language) -> str:
+    return ", ".join(sorted(language.text(each.name) for each in FAULTS))
+
+
+def _print_verdict(number: int, answer: str, language: Language) -> None:
+    given, fault = named_fault(answer, language), FAULTS[number - 1]
     if given is None:
-        names = ", ".join(sorted(each.name for each in FAULTS))
-        fail(f"{answer!r} does not name one fault", f"Faults: {names}.", code=2)
+        fail(f"{answer!r} does not name one fault", f"Faults: {_fault_names(language)}.", code=2)
     if given is not fault:
-        fail("The answer is wrong.", "Start the system again, and run coframe doctor in a second terminal.")
-    print(f"Right: {fault.explanation}")
+        hint = "Start the system again, and run coframe doctor in a second terminal."
+        fail(language.text("The answer is wrong."), language.text(hint))
+    print(language.text(f"Right: {fault.explanation}"))

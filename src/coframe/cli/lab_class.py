@@ -27,6 +27,7 @@ from coframe.course.submitted import check_outputs
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    from coframe.course.translation.language import Language
     from coframe.errors import CourseError
 
 __all__ = ["ClassOptions", "grade_class"]
@@ -53,6 +54,7 @@ class ClassOptions(NamedTuple):
         feedback_format: One of FEEDBACK_FORMATS.
         similarity: The CSV file for similar programs, or None.
         as_json: Whether to print all reports.
+        language: The language of the feedback.
     """
 
     folder: Path
@@ -69,6 +71,7 @@ class ClassOptions(NamedTuple):
     feedback_format: str
     similarity: Path | None
     as_json: bool
+    language: Language
 
 
 def grade_class(options: ClassOptions) -> None:
@@ -191,7 +194,7 @@ class _Grading:
                 by_key[student.key] = report
         students = () if self.roster is None else self.roster.students
         return [
-            StudentGrade(each, total(by_key[each.key]), formats.total_line(by_key[each.key]))
+            StudentGrade(each, total(by_key[each.key]), formats.total_line(by_key[each.key], self.options.language))
             if each.key in by_key
             else StudentGrade(each, None)
             for each in students
@@ -202,7 +205,7 @@ class _Grading:
         for name, report in self.reports.items():
             student = self.students[name]
             title, key = (name, name) if student is None else (student.name, student.key)
-            text = feedback(title, report, self.options.feedback_format)
+            text = feedback(title, report, self.options.feedback_format, self.options.language)
             path = folder / f"{_safe_name(key)}.{self.options.feedback_format}"
             write_complete(path, text.encode(errors="backslashreplace"))
 

@@ -13,6 +13,7 @@ from coframe._process.graded_programs import GRADED_VARIABLE, SOLUTIONS, refusal
 from coframe._process.python_children import python_environment
 from coframe.course._solutions import Decoys, entry_files, solution_folders, solution_problem
 from coframe.course._view import view_of
+from coframe.course.running import EXACT_FIELDS
 from coframe.course.sandbox.landlock import landlock_version, scopes_signals
 from coframe.course.sandbox.seccomp import can_filter
 
@@ -138,6 +139,7 @@ class Confinement:
         environment |= {"HOME": str(home), "TMPDIR": str(home), "ROS_LOG_DIR": str(home)}
         environment |= {"PYTHONUNBUFFERED": "1", "PYTHONDONTWRITEBYTECODE": "1", GRADED_VARIABLE: "1"}
         environment |= {"USER": "student", "LOGNAME": "student"}  # if the user has no account
+        environment |= EXACT_FIELDS
         return python_environment(environment)
 
     def attempt(self, output: bytes) -> str:

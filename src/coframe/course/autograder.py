@@ -10,10 +10,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe._files.complete_files import write_complete
+from coframe.course.translation.language import ENGLISH
 from coframe.errors import CourseError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from coframe.course.translation.language import Language
 
 __all__ = ["PLATFORMS", "write_autograder"]
 
@@ -41,7 +44,7 @@ _RUN = """#!/usr/bin/env bash
 # Gradescope runs this for each submission.
 set -euo pipefail
 mkdir -p /autograder/results
-/opt/lab/bin/coframe lab check /autograder/submission{variant} --gradescope /autograder/results/results.json
+/opt/lab/bin/coframe lab check /autograder/submission{options} --gradescope /autograder/results/results.json
 """
 _WORKFLOW = """name: Autograding
 on: [push, workflow_dispatch, repository_dispatch]
@@ -65,7 +68,7 @@ jobs:
         id: lab
         run: |
           cd "$RUNNER_TEMP"
-          coframe lab check "$GITHUB_WORKSPACE"{variant} --classroom result.json
+          coframe lab check "$GITHUB_WORKSPACE"{options} --classroom result.json
           echo "result=$(base64 --wrap=0 result.json)" >> "$GITHUB_OUTPUT"
       - name: Report the result
         uses: classroom-resources/autograding-grading-reporter@v1
@@ -84,7 +87,7 @@ RUN python -m pip install --no-cache-dir "/tmp/{wheel}[{extras}]" && rm /tmp/{wh
     && useradd --create-home grader && mkdir /class /grades && chown grader /grades
 USER grader
 WORKDIR /grades
-ENTRYPOINT ["coframe", "lab", "check", "--all", "/class", "-o", "/grades/grades.csv", "--resume"{variant}]
+ENTRYPOINT ["coframe", "lab", "check", "--all", "/class", "-o", "/grades/grades.csv", "--resume"{options}]
 """
 
 
@@ -95,20 +98,25 @@ class _Plan(NamedTuple):
         wheel: The wheel.
         python: The version of Python for which the wheel is built, such as "3.12".
         variant: The seed of the variant of all submissions, or None for that in each folder.
+        language: The language of the feedback.
     """
 
     wheel: Path
     python: str
     variant: int | None
+    language: Language
 
     def fill(self, template: str, *, as_list: bool = False) -> str:
         """Return a template with the values."""
-        option = "" if self.variant is None else f"--variant={self.variant}"
-        words = f', "{option}"' if as_list and option else f" {option}" if option else ""
-        return template.format(wheel=self.wheel.name, python=self.python, extras=_EXTRAS, variant=words)
+        options = [] if self.variant is None else [f"--variant={self.variant}"]
+        options += [] if self.language is ENGLISH else [f"--language={self.language.code}"]
+        words = "".join(f', "{option}"' if as_list else f" {option}" for option in options)
+        return template.format(wheel=self.wheel.name, python=self.python, extras=_EXTRAS, options=words)
 
 
-def write_autograder(platform: str, folder: Path, wheel: Path, variant: int | None = None) -> list[Path]:
+def write_autograder(
+    platform: str, folder: Path, wheel: Path, variant: int | None = None, language: Language = ENGLISH
+) -> list[Path]:
     """Write the package for a platform, and return its files; the first one is what the teacher uses.
 
     Args:
@@ -116,11 +124,12 @@ def write_autograder(platform: str, folder: Path, wheel: Path, variant: int | No
         folder: The folder for the files.
         wheel: A wheel of coframe, which the package installs.
         variant: The variant of all submissions. None for that in each folder.
+        language: The language of the feedback.
 
     Raises:
         CourseError: The wheel is not one of coframe, or a file already exists or cannot be written.
     """
-    plan = _Plan(wheel, _python_of(wheel), variant)
+    plan = _Plan(wheel, _python_of(wheel), variant, language)
     try:
         folder.mkdir(parents=True, exist_ok=True)
         return PLATFORMS[platform](plan, folder)

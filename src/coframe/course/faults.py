@@ -8,6 +8,7 @@ import zlib
 from typing import NamedTuple
 
 from coframe.course.running import NamedCommand, module_program
+from coframe.course.translation.language import ENGLISH, Language
 
 __all__ = ["FAULTS", "Fault", "draw", "named_fault"]
 
@@ -306,29 +307,33 @@ def draw(seed: str) -> int:
     return 1 + zlib.crc32(f"{seed}".encode()) % len(FAULTS)
 
 
-def named_fault(answer: str) -> Fault | None:
+def named_fault(answer: str, language: Language = ENGLISH) -> Fault | None:
     """Return the fault that an answer names, also in other words, or None if it names none or several.
+
+    Args:
+        answer: The answer, in English, or a name in the given language.
+        language: The language of the names.
 
     Example:
         >>> named_fault("Two publishers!").name, named_fault("MISSPELT frame").name
         ('second publisher', 'misspelled frame')
     """
     words = _words(answer)
-    scores = {fault.name: _score(fault, words) for fault in FAULTS}
+    scores = {fault.name: _score(fault, words, language) for fault in FAULTS}
     best = max(scores.values())
     found = [fault for fault in FAULTS if scores[fault.name] == best]
     return found[0] if best and len(found) == 1 else None
 
 
-def _score(fault: Fault, words: frozenset[str]) -> int:
+def _score(fault: Fault, words: frozenset[str], language: Language) -> int:
     """Return the number of words of the longest name of a fault that an answer contains completely, or 0."""
-    names = [_words(name) for name in (fault.name, *fault.other_names)]
+    names = [_words(name) for name in (fault.name, language.text(fault.name), *fault.other_names)]
     return max((2 * len(name) + (name == words) for name in names if name <= words), default=0)
 
 
 def _words(text: str) -> frozenset[str]:
     """Return the words of an answer without endings, with one word for each meaning."""
-    words = re.findall(r"[a-z0-9_./]+", text.casefold().replace("-", " "))
+    words = re.findall(r"[\w./]+", text.casefold().replace("-", " "))
     stems = (word.strip("./") for word in words)
     return frozenset(_SYNONYMS.get(word, _stem(word)) for word in stems if word and word not in _IGNORED)
 

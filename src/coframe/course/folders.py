@@ -13,24 +13,27 @@ from typing import TYPE_CHECKING
 from coframe._files.complete_files import write_complete
 from coframe._files.temporary_folders import temporary_folder
 from coframe.course.assignment import ASSIGNMENT_FILE, assignment_file, assignment_of
+from coframe.course.translation.catalogue import languages
+from coframe.course.translation.language import ENGLISH, Language
 from coframe.errors import CourseError
 
 if TYPE_CHECKING:
     from coframe.course.assignment import Assignment
     from coframe.course.roster import Roster
 
-__all__ = ["create_class", "create_folder", "file_names", "stub_text"]
+__all__ = ["create_class", "create_folder", "file_names", "stub_texts"]
 
 _TEMPLATES = Path(__file__).parent / "templates"
 _SUFFIX = ".in"
 
 
-def create_folder(folder: Path, variant: int | None) -> list[Path]:
+def create_folder(folder: Path, variant: int | None, language: Language = ENGLISH) -> list[Path]:
     """Create a folder with the files of the lab.
 
     Args:
         folder: The folder; it must not contain files of these names.
         variant: The seed of a variant. None for the lab's own parameters.
+        language: The language of the tasks.
 
     Returns:
         The files.
@@ -48,8 +51,7 @@ def create_folder(folder: Path, variant: int | None) -> list[Path]:
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for name in names:
-            text = (_TEMPLATES / f"{name}{_SUFFIX}").read_text(encoding="utf-8")
-            write_complete(folder / name, _fill_template(text, assignment).encode())
+            write_complete(folder / name, _filled(name, assignment, language).encode())
         write_complete(folder / ASSIGNMENT_FILE, assignment_file(assignment).encode())
     except OSError as error:
         for name in (*names, ASSIGNMENT_FILE):
@@ -61,13 +63,14 @@ def create_folder(folder: Path, variant: int | None) -> list[Path]:
     return [folder / name for name in (*names, ASSIGNMENT_FILE)]
 
 
-def create_class(folder: Path, roster: Roster, *, as_zip: bool = False) -> list[Path]:
+def create_class(folder: Path, roster: Roster, *, as_zip: bool = False, language: Language = ENGLISH) -> list[Path]:
     """Create a folder for each student of a class, with the student's variant, and return them.
 
     Args:
         folder: The folder of the class.
         roster: The students.
         as_zip: Whether to create a zip file for each student instead of a folder.
+        language: The language of the tasks.
 
     Raises:
         CourseError: A folder or file already exists, or cannot be written.
@@ -80,10 +83,10 @@ def create_class(folder: Path, roster: Roster, *, as_zip: bool = False) -> list[
         )
     for student, place in zip(roster.students, places, strict=True):
         if not as_zip:
-            create_folder(place, student.variant)
+            create_folder(place, student.variant, language)
             continue
         with temporary_folder("coframe-new-") as name:
-            files = create_folder(Path(name, "lab"), student.variant)
+            files = create_folder(Path(name, "lab"), student.variant, language)
             _write_zip(place, student.key, files)
     return places
 
@@ -100,10 +103,9 @@ def _write_zip(path: Path, folder: str, files: list[Path]) -> None:
         raise CourseError(f"Cannot write {path}: {error.strerror}.", hint="Choose another folder.") from None
 
 
-def stub_text(name: str) -> str:
-    """Return the text of a file of the lab, with the lab's own numbers."""
-    text = (_TEMPLATES / f"{name}{_SUFFIX}").read_text(encoding="utf-8")
-    return _fill_template(text, assignment_of(None))
+def stub_texts(name: str) -> list[str]:
+    """Return the text of a file of the lab, with the lab's own numbers, in each language."""
+    return [_filled(name, assignment_of(None), Language(code)) for code in languages()]
 
 
 def file_names() -> list[str]:
@@ -111,8 +113,9 @@ def file_names() -> list[str]:
     return sorted(path.name.removesuffix(_SUFFIX) for path in _TEMPLATES.glob(f"*{_SUFFIX}"))
 
 
-def _fill_template(text: str, assignment: Assignment) -> str:
-    """Return a template filled with the parameters of the assignment."""
+def _filled(name: str, assignment: Assignment, language: Language) -> str:
+    """Return a file of the lab with the parameters of the assignment."""
+    text = language.stub(name, (_TEMPLATES / f"{name}{_SUFFIX}").read_text(encoding="utf-8"))
     first, second = assignment.link_lengths
     values = {
         "CAMERA": _numbers(assignment.camera.translation),
@@ -123,9 +126,11 @@ def _fill_template(text: str, assignment: Assignment) -> str:
         "LENGTH2": f"{second:g}",
         "DYNAMIC_RATE": f"{assignment.dynamic_rate:g}",
         "LISTENER_RATE": f"{assignment.listener_rate:g}",
-        "VARIANT": "These are the numbers of the lab."
-        if assignment.variant is None
-        else f"These are the numbers of variant {assignment.variant}.",
+        "VARIANT": language.text(
+            "These are the numbers of the lab."
+            if assignment.variant is None
+            else f"These are the numbers of variant {assignment.variant}."
+        ),
     }
     return re.sub(r"@([A-Z0-9_]+)@", lambda match: values[match[1]], text)
 

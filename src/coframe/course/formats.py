@@ -7,58 +7,81 @@ import textwrap
 from typing import TYPE_CHECKING, Any
 
 from coframe.course.submitted import MISSING_FILE
+from coframe.course.translation.language import ENGLISH
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["classroom", "csv_row", "gradescope", "is_skipped", "text", "total_line", "ungraded_report"]
+    from coframe.course.translation.language import Language
+
+__all__ = ["classroom", "csv_row", "details", "gradescope", "is_skipped", "text", "total_line", "ungraded_report"]
 
 _WIDTH = 100
 _FOLDER = "Folder"  # represents all criteria of a folder that could not be graded
 
 
-def text(report: dict[str, Any]) -> Iterator[str]:
+def text(report: dict[str, Any], language: Language = ENGLISH) -> Iterator[str]:
     """Yield the lines of a report for a terminal: each criterion with its facts, and the reasons for lost points."""
     for criterion in report["criteria"]:
         if is_skipped(criterion):
             continue
-        bonus = " bonus" if criterion["bonus"] else ""
-        yield f"{criterion['name']} ({criterion['file']}): {_points_text(criterion)}{bonus}"
+        bonus = f" {language.label('bonus')}" if criterion["bonus"] else ""
+        yield f"{language.text(criterion['name'])} ({criterion['file']}): {_points_text(criterion)}{bonus}"
         if criterion["problem"]:
-            yield from _indent(criterion["problem"], "  ! ")
+            yield from _indent(language.text(criterion["problem"]), "  ! ")
             yield from (f"    | {line}" for line in criterion["last_lines"])
+            if cause := _common_cause(criterion):
+                yield from _indent(language.text(cause), f"    {language.label('likely cause')}: ")
         for fact in criterion["facts"]:
             lost = fact["earned"] < fact["points"]
-            yield f"  {'-' if lost else '+'} {_points_text(fact)}  {fact['name']}"
+            yield f"  {'-' if lost else '+'} {_points_text(fact)}  {language.text(fact['name'])}"
             if lost and not _is_explained(criterion, fact):
-                yield from _indent(fact["expected"], "        expected: ")
-                yield from _indent(fact["observed"], "        observed: ")
-                yield from _indent(fact["cause"], "        likely cause: ")
-                yield from _indent(fact["read"], "        read: ")
+                for label, content in details(fact, language):
+                    yield from _indent(content, f"        {label}: ")
         yield ""
-    yield from report["notices"]
-    yield total_line(report)
+    yield from map(language.text, report["notices"])
+    yield total_line(report, language)
+
+
+def details(fact: dict[str, Any], language: Language = ENGLISH) -> list[tuple[str, str]]:
+    """Return the explanations of lost points, each with its label."""
+    labels = (
+        (language.label("expected"), "expected"),
+        (language.label("observed"), "observed"),
+        (language.label("likely cause"), "cause"),
+        (language.label("read"), "read"),
+    )
+    return [(label, language.text(fact[key])) for label, key in labels if fact[key]]
 
 
 def _is_explained(criterion: dict[str, Any], fact: dict[str, Any]) -> bool:
     """Return whether the problem above the facts explains why this one lost points."""
     problem = criterion["problem"].casefold()
-    if fact["cause"]:
+    if fact["cause"] and fact["cause"] != _common_cause(criterion):
         return fact["cause"].casefold() in problem
     return fact["observed"].casefold() in problem
 
 
-def total_line(report: dict[str, Any]) -> str:
+def _common_cause(criterion: dict[str, Any]) -> str:
+    """Return the cause of all lost points if the program did nothing, or ""."""
+    lost = [fact for fact in criterion["facts"] if fact["earned"] < fact["points"]]
+    causes = {fact["cause"] for fact in lost}
+    has_one = len(causes) == 1 and all(fact["observed"] and fact["observed"] in criterion["problem"] for fact in lost)
+    cause: str = causes.pop() if has_one else ""
+    return "" if cause.casefold() in criterion["problem"].casefold() else cause
+
+
+def total_line(report: dict[str, Any], language: Language = ENGLISH) -> str:
     """Return the last line of a report: the grade, or the points of a part of the check."""
     points, bonus_points = (
         sum(each["points"] for each in report["criteria"] if each["bonus"] is bonus) for bonus in (False, True)
     )
     if points == report["points"]:
         bonus = f" + {report['bonus']:g} bonus" if report["bonus"] else ""
-        return f"Grade: {report['earned']:g} of {points:g}{bonus}"
+        return language.text(f"Grade: {report['earned']:g} of {points:g}{bonus}")
     parts = [f"{report['earned']:g} of {points:g}"] if points else []
     parts += [f"{report['bonus']:g} of {bonus_points:g} bonus"] if bonus_points else []
-    return f"Points in this part of the check: {' + '.join(parts)}. The grade requires all parts."
+    return language.text(f"Points in this part of the check: {' + '.join(parts)}. The grade requires all parts.")
 
 
 def is_skipped(criterion: dict[str, Any]) -> bool:
@@ -92,33 +115,33 @@ def ungraded_report(folder: str, problem: str) -> dict[str, Any]:
     }
 
 
-def gradescope(report: dict[str, Any]) -> dict[str, Any]:
+def gradescope(report: dict[str, Any], language: Language = ENGLISH) -> dict[str, Any]:
     """Return a report as Gradescope's ``results.json``: one test for each fact."""
     return {
         "score": report["earned"] + report["bonus"],
-        "output": "\n".join(report["notices"]),
+        "output": "\n".join(map(language.text, report["notices"])),
         "tests": [
             {
-                "name": f"{criterion['name']}: {fact['name']}",
+                "name": f"{language.text(criterion['name'])}: {language.text(fact['name'])}",
                 "score": fact["earned"],
                 "max_score": 0 if criterion["bonus"] else fact["points"],
                 "status": "passed" if fact["earned"] == fact["points"] else "failed",
-                "output": _explanation(criterion, fact),
+                "output": _explanation(criterion, fact, language),
             }
             for criterion, fact in _graded_facts(report)
         ],
     }
 
 
-def classroom(report: dict[str, Any]) -> dict[str, Any]:
+def classroom(report: dict[str, Any], language: Language = ENGLISH) -> dict[str, Any]:
     """Return a report as the result of a runner of GitHub Classroom's autograding."""
     tests = [
         {
-            "name": f"{criterion['name']}: {fact['name']}",
+            "name": f"{language.text(criterion['name'])}: {language.text(fact['name'])}",
             "status": "pass" if fact["earned"] == fact["points"] else "fail",
             "line_no": 0,  # The reporter prints "line undefined" without it.
-            "message": _explanation(criterion, fact),
-            "test_code": _explanation(criterion, fact),  # The reporter prints only this for a failed test.
+            "message": _explanation(criterion, fact, language),
+            "test_code": _explanation(criterion, fact, language),  # The reporter prints only this for a failed test.
             "score": fact["earned"],
             "max_score": 0 if criterion["bonus"] else fact["points"],
             "filename": criterion["file"],
@@ -149,10 +172,8 @@ def csv_row(submission: str, report: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def _explanation(criterion: dict[str, Any], fact: dict[str, Any]) -> str:
+def _explanation(criterion: dict[str, Any], fact: dict[str, Any], language: Language) -> str:
     if fact["earned"] == fact["points"]:
         return ""
-    parts = [f"expected: {fact['expected']}", f"observed: {fact['observed']}"]
-    parts += [f"likely cause: {fact['cause']}"] if fact["cause"] else []
-    parts += [f"read: {fact['read']}"] if fact["read"] else []
-    return "\n".join([*([criterion["problem"]] if criterion["problem"] else []), *parts])
+    problem = [language.text(criterion["problem"])] if criterion["problem"] else []
+    return "\n".join([*problem, *(f"{label}: {content}" for label, content in details(fact, language))])

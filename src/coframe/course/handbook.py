@@ -7,10 +7,14 @@ import html
 import re
 import shutil
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.course._notebooks import notebook
+from coframe.course.translation.language import ENGLISH
 from coframe.errors import CourseError
+
+if TYPE_CHECKING:
+    from coframe.course.translation.language import Language
 
 __all__ = ["Chapter", "chapter_figure", "chapters", "contents", "terminal_text", "write_pages"]
 
@@ -52,7 +56,7 @@ addEventListener("keydown", (event) => {
 });
 </script>"""
 _PAGE = """<!DOCTYPE html>
-<html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<html lang="{language}"><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
 <title>{title}</title>
 <style>{style}</style>
 <body>
@@ -108,17 +112,19 @@ def chapter_figure(number: int) -> str:
     return ""
 
 
-def terminal_text(file: Path) -> str:
+def terminal_text(file: Path, language: Language = ENGLISH) -> str:
     """Return a file of the handbook as Markdown for a terminal, with images replaced by their descriptions."""
-    return _LINK.sub(r"\1", _PICTURE.sub(r"*Picture: \1*", file.read_text(encoding="utf-8")))
+    text = language.markdown(file.read_text(encoding="utf-8"))
+    return _LINK.sub(r"\1", _PICTURE.sub(rf"*{language.label('Picture')}: \1*", text))
 
 
-def write_pages(folder: Path, *, slides: bool = False) -> Path:
+def write_pages(folder: Path, *, slides: bool = False, language: Language = ENGLISH) -> Path:
     """Write the handbook as web pages with a menu, images and notebooks, and return the contents page.
 
     Args:
         folder: The folder; existing files are replaced.
         slides: Whether to write ``slides.html`` too: a slide for each section of a chapter.
+        language: The language of the pages; the notebooks are in English.
 
     Raises:
         CourseError: The handbook is not installed, or a file cannot be written.
@@ -127,14 +133,18 @@ def write_pages(folder: Path, *, slides: bool = False) -> Path:
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for file in source.glob("*.md"):
-            _target(folder, file).write_text(_page(file), encoding="utf-8")
+            _target(folder, file).write_text(_page(file, language), encoding="utf-8")
         for picture in _find_images(source):
-            shutil.copyfile(picture, folder / picture.name)
+            if picture.suffix == ".svg":
+                figure = language.figure(picture.read_text(encoding="utf-8"))
+                (folder / picture.name).write_text(figure, encoding="utf-8")
+            else:
+                shutil.copyfile(picture, folder / picture.name)
         (folder / _NOTEBOOKS).mkdir(exist_ok=True)
         for chapter in chapters():
             (folder / _NOTEBOOKS / f"{chapter.file.stem}.ipynb").write_text(notebook(chapter.file), encoding="utf-8")
         if slides:
-            (folder / _SLIDES).write_text(_slides(), encoding="utf-8")
+            (folder / _SLIDES).write_text(_slides(language), encoding="utf-8")
     except OSError as error:
         raise CourseError(
             f"Cannot write {error.filename or folder}: {error.strerror}.", hint="Choose another folder."
@@ -150,40 +160,47 @@ def _find_images(folder: Path) -> list[Path]:
     return [file for file in folder.iterdir() if file.suffix in {".svg", ".png", ".jpg", ".gif", ".webp"}]
 
 
-def _page(file: Path) -> str:
+def _page(file: Path, language: Language) -> str:
     """Return a file of the handbook as a web page, with a menu and links to the other pages."""
-    text = file.read_text(encoding="utf-8")
+    text = language.markdown(file.read_text(encoding="utf-8"))
     title = html.escape(text.partition("\n")[0].removeprefix("# "))
-    body = f"{_menu(file)}<main>\n{_rendered(text)}</main>\n"
-    return _PAGE.format(title=title, style=_STYLE + _PAGE_STYLE, body=body)
+    body = f"{_menu(file, language)}<main>\n{_rendered(text)}</main>\n"
+    return _PAGE.format(language=language.code, title=title, style=_STYLE + _PAGE_STYLE, body=body)
 
 
-def _menu(file: Path) -> str:
+def _menu(file: Path, language: Language) -> str:
     """Return the menu of a page: the previous and next chapter, and all chapters."""
     found = chapters()
     files = [chapter.file for chapter in found]
     place = files.index(file) if file in files else -1
-    near = [("Contents", "index.html")]
+    near = [(language.label("Contents"), "index.html")]
     near += [(f"&larr; {found[place - 1].number}", f"{files[place - 1].stem}.html")] if place > 0 else []
     near += [(f"{found[place + 1].number} &rarr;", f"{files[place + 1].stem}.html")] if place + 1 < len(found) else []
     links = " &ensp; ".join(f'<a href="{address}">{name}</a>' for name, address in near)
     items = "".join(
         f'<li><a href="{chapter.file.stem}.html"{" aria-current=page" if chapter.file == file else ""}>'
-        f"{html.escape(chapter.title)}</a></li>"
+        f"{html.escape(_title(chapter, language))}</a></li>"
         for chapter in found
     )
-    return f"<nav>{links}<details><summary>Chapters</summary><ol>{items}</ol></details></nav>\n"
+    return f"<nav>{links}<details><summary>{language.label('Chapters')}</summary><ol>{items}</ol></details></nav>\n"
 
 
-def _slides() -> str:
+def _title(chapter: Chapter, language: Language) -> str:
+    heading = language.markdown(f"# {chapter.number} {chapter.title}")
+    return heading.removeprefix(f"# {chapter.number} ")
+
+
+def _slides(language: Language) -> str:
     """Return all chapters as slides, one for each section, without exercises."""
     parts = []
     for chapter in chapters():
         text = _NOT_SHOWN.sub("", chapter.file.read_text(encoding="utf-8"))
         sections = re.split(r"^(?=##? )", text, flags=re.MULTILINE)
-        parts += [section for section in sections if section.strip() and not section.startswith("## Exercises")]
+        shown = [section for section in sections if section.strip() and not section.startswith("## Exercises")]
+        parts += [language.markdown(section) for section in shown]
     body = "".join(f"<section>\n{_rendered(part)}</section>\n" for part in parts)
-    return _PAGE.format(title="Coordinate frames and tf2", style=_STYLE + _SLIDE_STYLE, body=body + _KEYS)
+    title = language.label("Coordinate frames and tf2")
+    return _PAGE.format(language=language.code, title=title, style=_STYLE + _SLIDE_STYLE, body=body + _KEYS)
 
 
 def _rendered(text: str) -> str:

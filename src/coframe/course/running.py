@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "COMPLETE_TREE_FILES",
+    "EXACT_FIELDS",
     "NODE_FILES",
     "NamedCommand",
     "module_program",
@@ -31,6 +32,9 @@ __all__ = [
 
 NODE_FILES = ("static_tf_broadcaster.py", "dynamic_tf_broadcaster.py", "tf_listener.py", "sensor_transform.py")
 COMPLETE_TREE_FILES = ("complete_tf_tree.py", "tf_listener.py", "sensor_transform.py")
+# As in ROS 2 Humble, an integer in a field for a float is an error, whichever distribution the environment names:
+# a program has the same grade everywhere.
+EXACT_FIELDS = {"ROS_PYTHON_CHECK_FIELDS": "1"}
 _STOP_TIMEOUT = 3.0  # seconds between SIGINT and SIGKILL
 
 
@@ -108,7 +112,7 @@ def running(programs: Sequence[NamedCommand], write: Callable[[str, str], None])
                 stderr=subprocess.STDOUT,
                 text=True,
                 errors="replace",
-                env=python_environment() | {"PYTHONUNBUFFERED": "1"},
+                env=python_environment() | EXACT_FIELDS | {"PYTHONUNBUFFERED": "1"},
                 start_new_session=True,  # Only this process receives Ctrl-C; it stops the others.
             )
             processes.append((program, process))

@@ -15,7 +15,7 @@ from collections import Counter
 from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.course.folders import stub_text
+from coframe.course.folders import stub_texts
 from coframe.course.rubric import RUBRIC
 from coframe.course.submitted import read_submitted
 from coframe.errors import CourseError
@@ -58,7 +58,7 @@ def similarities(folders: Mapping[str, Path], least: float = 0.6) -> list[Simila
     """
     found = []
     for file in dict.fromkeys(row.file for row in RUBRIC.values() if row.file.endswith(".py")):
-        stub = _sequences(_tokens(stub_text(file)))
+        stub = [sequence for text in stub_texts(file) for sequence in _sequences(_tokens(text))]
         programs = {name: _Program.of(folder / file, stub) for name, folder in folders.items()}
         usable = {name: each for name, each in programs.items() if each is not None}
         for (first, one), (second, other) in combinations(usable.items(), 2):

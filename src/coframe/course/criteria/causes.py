@@ -6,7 +6,6 @@ All functions return "" if no usual mistake fits. The report then prints no caus
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -45,10 +44,9 @@ _TYPED_DIGITS = (
 _ROUNDED = 5e-4  # the error of a component that was typed with three digits
 _UNIT_TOLERANCE = 1e-6
 _MAX_PERIOD_ERROR = 0.02  # as a fraction
-# The first line of the failure of a lookup, as tf2 writes it.
-_FAILED_LOOKUP = re.compile(
-    r'(?:"[^"]+" passed to lookupTransform[^\n]*|[^\n\]:]*(?:Lookup would require|Could not find a connection)[^\n]*)'
-)
+# In the failure of a lookup, as tf2 writes it.
+_UNKNOWN_FRAME = '" passed to lookupTransform'
+_FAILURES = ("Lookup would require", "Could not find a connection")
 
 
 def name_mistake(found: str, wanted: str) -> str:
@@ -152,7 +150,13 @@ def period_cause(rate: float, wanted: float) -> str:
 
 def log_cause(output: str) -> str:
     """Return the last failed lookup in the output of a program, with the advice that the doctor gives about it."""
-    failures = [each.strip() for each in _FAILED_LOOKUP.findall(output)]
-    if not failures:
-        return ""
-    return f"its lookups fail: {failures[-1][:200].rstrip('.')}. {lookup_advice(failures[-1])}".rstrip(". ")
+    failure = next(filter(None, map(_failed_lookup, reversed(output.splitlines()))), "")
+    return f"its lookups fail: {failure[:200].rstrip('.')}. {lookup_advice(failure)}".rstrip(". ") if failure else ""
+
+
+def _failed_lookup(line: str) -> str:
+    """Return the failure of a lookup in a line of output, without the level and the name of the node before it."""
+    if (place := line.find(_UNKNOWN_FRAME)) > 0:
+        return line[line.rfind('"', 0, place) :].strip()
+    place = max(map(line.find, _FAILURES))
+    return line[1 + max(line.rfind("]", 0, place), line.rfind(":", 0, place)) :].strip() if place >= 0 else ""
