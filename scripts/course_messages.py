@@ -65,7 +65,8 @@ _NO_TEXT_NAMES = {
 }
 _CODE = ("import ", "coframe.", "<", "nan", "xyz", "replace", "pass", "fail")
 _SENTENCE = re.compile(
-    r"[A-Za-z]{2,}[^<>]* [^<>]*[A-Za-z]|[A-Za-z]+ \{\d+\}|[a-z]{4,}:? ?\{\d+\}|\{\d+\}[^<>]* [A-Za-z]{2,}|\{\d+\} [a-z]+"
+    r"[A-Za-z]{2,}[^<>]* [^<>]*[A-Za-z]|[A-Za-z]+ \{\d+\}|[a-z]{4,}:? ?\{\d+\}"
+    r"|\{\d+\}[^<>]* [A-Za-z]{2,}|\{\d+\} [a-z]+"
 )
 
 

@@ -54,6 +54,7 @@ ALLOWED = {
     "coframe.course.sandbox.mounts": "creates a file",
     "coframe.course.sandbox.start": PROC,
     "coframe.course.sandbox.users": PROC,
+    "coframe.course.translation.catalogue": OWN_DATA,
     "coframe.course._view": PROC,
     "coframe.doctor.codes": OWN_DATA,
     "coframe.workspace.entry_point": "runs the program that the user names, as Python does",
