@@ -154,10 +154,41 @@ def test_the_commands(recording, tmp_path):
     for name in ("mount.urdf", "mount.yaml"):
         assert read(tmp_path / name).lookup("base_link", "camera").is_close(MOUNT, translation=5e-3, rotation=5e-3)
     assert (tmp_path / "residuals.html").stat().st_size > 1000
+    corrected = tmp_path / "corrected.mcap"
+    run("calibrate", "rigid", recording, "odom:base_link", "tag36h11:0:camera", "-o", corrected)
+    with coframe.open_bag(recording) as old, coframe.open_bag(corrected) as new:
+        assert new.buffer.lookup("base_link", "camera").is_close(MOUNT, translation=5e-3, rotation=5e-3)
+        assert len(new.stamps("/tag_pose")) == len(old.stamps("/tag_pose")), "everything else is copied"
+    refused = CliRunner().invoke(
+        app, ["calibrate", "rigid", str(recording), "odom:base_link", "tag36h11:0:camera", "-o", str(corrected)]
+    )
+    assert (refused.exit_code, "already exists" in refused.output) == (1, True)
     data = json.loads(run("calibrate", "hand-eye", recording, "odom", "base_link", "/tag_pose", "--json"))
     assert (data["parent"], data["child"], data["hidden_directions"]) == ("base_link", "camera", [])
     assert data["transform"][:3] == pytest.approx(MOUNT.translation, abs=5e-3)
     assert data["time_offset"] == pytest.approx(OFFSET, abs=1e-3)
+
+
+def test_poses_between_sparse_detections_are_not_invented(tmp_path):
+    """A tag that is seen once per second has a pose at these times only, although the robot has 50 per second."""
+    path = tmp_path / "run.mcap"
+    with Writer(path) as bag:
+        tf = bag.add_topic("/tf", "tf2_msgs/msg/TFMessage")
+        for step in range(501):
+            stamp, buffer = START + step * SECOND // 50, coframe.Buffer()
+            buffer.set(
+                "map", "camera", coframe.Transform.from_rpy([step / 50, np.sin(step / 70), 0], yaw=step / 90), stamp
+            )
+            if step % 50 == 0:
+                buffer.set("camera", "tag36h11:0", coframe.Transform([1.0, 0.1 * (step % 100), 0.0]), stamp)
+            bag.write(tf, buffer.encode(static=False), received=stamp)
+    trajectory = f"{path}:map:tag36h11:0"
+    text = run("compare", trajectory, trajectory)
+    assert "\n11 pairs of poses" in text
+    assert "omitted 490 poses of 'tag36h11:0' in 'map' between transforms that are more than 500 ms apart" in text
+    assert run("compare", trajectory, trajectory, "--max-gap", "2s").startswith("501 pairs of poses")
+    result = CliRunner().invoke(app, ["calibrate", "rigid", str(path), "map:camera", "map:tag36h11:0"])
+    assert (result.exit_code, "needs at least 20 poses" in result.output) == (1, True)
 
 
 def test_frames_with_a_colon_can_be_compared(recording):

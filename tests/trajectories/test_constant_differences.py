@@ -119,6 +119,7 @@ def test_options_that_are_not_valid():
         ({"project": "zx"}, "No plane named 'zx'"),
         ({"n_to_align": 0}, "n_to_align must be at least 1"),
         ({"t_offset": "soon"}, "soon"),
+        ({"align": "hand-eye", "body_offset": CAMERA}, "give one of them"),
     ):
         with pytest.raises(ValueError, match=text):
             compare_trajectories(drive(), drive(1), **options)
@@ -129,6 +130,29 @@ def test_options_that_are_not_valid():
         compare_trajectories(drive(), drive(1, late=-280_000_000))
     found = re.search(r"add (\S+) ms to the stamps of the estimate", caught.value.hint)
     assert float(found[1]) == pytest.approx(280, abs=2)
+
+
+@pytest.mark.parametrize("late", [0.0, 0.1, -0.237])
+@pytest.mark.parametrize("seed", range(2))
+def test_the_offset_and_the_body_frame_can_be_estimated_at_once(late, seed):
+    estimate = WORLD @ drive(seed, late=round(late * SECOND)) @ CAMERA.inverse()
+    result = compare_trajectories(drive(), estimate, align="hand-eye", t_offset="auto")
+    assert result.t_offset == pytest.approx(-late * SECOND, abs=6e6)
+    distance, angle = result.applied_body_offset.distance(CAMERA)
+    assert (distance < 0.02, angle < 0.01) == (True, True)
+    assert result.ape.translation_statistics.rmse < 0.04
+    assert result.ape.rotation_statistics.rmse < 0.04
+    assert (result.body_offset, result.time_shift) == (None, None)
+    assert len(result.reference) > 580
+
+
+def test_a_shifted_estimate_is_not_interpolated_over_gaps():
+    estimate = drive(late=33_000_000)
+    estimate = estimate[np.r_[0:200, 400:600]]
+    result = compare_trajectories(drive(), estimate, t_offset="auto")
+    assert result.t_offset == pytest.approx(-33e6, abs=1e6)
+    assert 390 <= len(result.reference) <= 401
+    assert result.ape.translation_statistics.max < 0.02
 
 
 # The command.

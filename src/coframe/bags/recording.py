@@ -528,6 +528,7 @@ class Recording:
         *,
         start: StampLike | str | None = None,
         stop: StampLike | str | None = None,
+        max_gap: DurationLike | None = None,
     ) -> Transform:
         """Return the poses in the messages on a topic, or those of a frame, as a batch with stamps.
 
@@ -537,6 +538,8 @@ class Recording:
                 two frames, ``("map", "base_link")`` or ``"map:base_link"``, as in :meth:`coframe.Buffer.trajectory`.
             start: The first stamp; nanoseconds, or a string for :func:`coframe.bags.parse_time_point`.
             stop: The last stamp.
+            max_gap: Omit poses of two frames that are interpolated over a longer interval between two transforms of an
+                edge, such as ``"500ms"``. None interpolates over any gap.
 
         Returns:
             A batch of shape (N,), sorted by stamp, with its covariances if the messages have some.
@@ -555,7 +558,7 @@ class Recording:
             for sentence in sentences:
                 warnings.warn(sentence, CoframeWarning, stacklevel=2)
         else:
-            poses = self.buffer.trajectory(parsed.target, parsed.source)
+            poses = self.buffer.trajectory(parsed.target, parsed.source, max_gap=max_gap, on_gap="omit")
         stamps = np.atleast_1d(np.asarray(poses.stamps, dtype=np.int64))
         inside = np.ones(len(stamps), dtype=bool)
         for when, keep in ((start, np.greater_equal), (stop, np.less_equal)):

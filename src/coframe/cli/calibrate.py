@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 from math import degrees, isfinite
 from typing import TYPE_CHECKING, Any
 
@@ -12,15 +13,16 @@ import numpy as np
 
 from coframe._files.complete_files import write_complete
 from coframe.analysis.static_command import static_command
+from coframe.bags import edit
 from coframe.bags.namespaces import TransformChoice
 from coframe.calibration import Rig, calibrate_hand_eye, calibrate_rigid, write
 from coframe.cli.declaration import PATH, CommandGroup, argument
 from coframe.cli.lifecycle import run_to_completion
-from coframe.cli.options import Duration, bag_argument
+from coframe.cli.options import Duration, PositiveDuration, bag_argument
 from coframe.cli.output import fail, fail_to_write, printable, warn
 from coframe.cli.plot import check_figure_package, save_figure
 from coframe.cli.recordings import open_recording
-from coframe.cli.trajectory_arguments import frame_pair
+from coframe.cli.trajectory_arguments import frame_pair, read_frames
 from coframe.plotting import FIGURE_FORMATS, Figure, Series
 from coframe.time import SECOND
 from coframe.transform.transform import Transform
@@ -54,7 +56,15 @@ def _options(function: Callable[..., None]) -> Callable[..., None]:
             metavar="FILE",
             type=PATH,
             multiple=True,
-            help=f"Write the mount, or a plot of the residuals: {', '.join(_SUFFIXES)}; repeatable.",
+            help="Write the mount, a plot of the residuals, or a copy of BAG with the mount (.mcap): "
+            f"{', '.join(_SUFFIXES)}; repeatable.",
+        ),
+        click.option(
+            "--max-gap",
+            metavar="DURATION",
+            type=PositiveDuration,
+            default="500ms",
+            help="Maximum interval between two transforms of a recording for interpolation.",
         ),
         click.option(
             "--t-offset",
@@ -85,6 +95,7 @@ def rigid(
     second: str,
     prior: tuple[float, ...] | None,
     t_offset: int | None,
+    max_gap: PositiveDuration,
     output: tuple[Path, ...],
     as_json: bool,
 ) -> None:
@@ -98,9 +109,9 @@ def rigid(
     _check_outputs(output)
     with run_to_completion():
         with open_recording(str(bag), TransformChoice()) as recording:
-            (one, body), (other, sensor) = (_trajectory(recording, text) for text in (first, second))
+            (one, body), (other, sensor) = (_trajectory(recording, text, max_gap) for text in (first, second))
         found = calibrate_rigid(one, other, prior=_prior(prior), time_offset=_seconds(t_offset))
-        _report(found, (body, sensor), output, as_json=as_json)
+        _report(found, (body, sensor), bag, output, as_json=as_json)
 
 
 @calibrate.command("hand-eye", short_help="From poses of a gripper and of a tag that a camera sees.")
@@ -118,6 +129,7 @@ def hand_eye(
     on_base: bool,
     prior: tuple[float, ...] | None,
     t_offset: int | None,
+    max_gap: PositiveDuration,
     output: tuple[Path, ...],
     as_json: bool,
 ) -> None:
@@ -128,8 +140,8 @@ def hand_eye(
     _check_outputs(output)
     with run_to_completion():
         with open_recording(str(bag), TransformChoice()) as recording:
-            arm = recording.trajectory((base, gripper))
-            seen, name = _trajectory(recording, tag)
+            arm = read_frames(recording, (base, gripper), max_gap)
+            seen, name = _trajectory(recording, tag, max_gap)
             camera = seen.target or name
         found = calibrate_hand_eye(arm, seen, on_base=on_base, prior=_prior(prior), time_offset=_seconds(t_offset))
         names = (gripper, camera)
@@ -137,7 +149,7 @@ def hand_eye(
             names = (base, camera)
             print(printable(f"the tag in {gripper}: {_numbers(found.transform)}"))
             found = _swapped(found)
-        _report(found, names, output, as_json=as_json)
+        _report(found, names, bag, output, as_json=as_json)
 
 
 def _swapped(found: RigidCalibration) -> RigidCalibration:
@@ -148,7 +160,7 @@ def _swapped(found: RigidCalibration) -> RigidCalibration:
     return replace(found, transform=camera, reference=found.transform)
 
 
-def _trajectory(recording: Recording, text: str) -> tuple[Transform, str]:
+def _trajectory(recording: Recording, text: str, max_gap: int) -> tuple[Transform, str]:
     """Return the poses that an argument names, and the name of the frame that moves."""
     if text.startswith("/") and ":" not in text:
         poses = recording.trajectory(text)
@@ -156,7 +168,7 @@ def _trajectory(recording: Recording, text: str) -> tuple[Transform, str]:
     if ":" not in text:
         fail(f"{text!r} is not a pair of frames", "Write ROOT:FRAME, or a topic with poses such as /odom.", code=2)
     pair = frame_pair(text, recording.buffer.frame_names())
-    return recording.trajectory(pair), pair[1]
+    return read_frames(recording, pair, max_gap), pair[1]
 
 
 def _prior(numbers: tuple[float, ...] | None) -> Transform | None:
@@ -178,7 +190,9 @@ def _check_outputs(paths: tuple[Path, ...]) -> None:
         check_figure_package(path)
 
 
-def _report(found: RigidCalibration, names: tuple[str, str], output: tuple[Path, ...], *, as_json: bool) -> None:
+def _report(
+    found: RigidCalibration, names: tuple[str, str], bag: Readable, output: tuple[Path, ...], *, as_json: bool
+) -> None:
     data = _as_dict(found, names)
     if as_json:
         print(json.dumps(data))
@@ -188,7 +202,10 @@ def _report(found: RigidCalibration, names: tuple[str, str], output: tuple[Path,
         warn(line)
     for path in output:
         try:
-            _write(found, names, path, data)
+            if path.suffix.lower() == ".mcap":
+                _write_recording(found, names, bag, path)
+            else:
+                _write(found, names, path, data)
         except OSError as error:
             fail_to_write(path, error)
 
@@ -259,3 +276,9 @@ def _write(found: RigidCalibration, names: tuple[str, str], path: Path, data: di
     else:
         mount = found.transform.replace(target=names[0], source=names[1], covariance=None)
         write(Rig((mount,), time_offsets={names[1]: found.time_offset}), path, "autoware" if kind == "yaml" else None)
+
+
+def _write_recording(found: RigidCalibration, names: tuple[str, str], bag: Readable, path: Path) -> None:
+    """Write a copy of the recording with the mount, as `coframe bag edit --set-static` does."""
+    words = [shlex.quote(name) for name in names] + [repr(float(value)) for value in found.transform.values]
+    edit(bag, path, [("set-static", " ".join(words))])

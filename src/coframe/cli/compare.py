@@ -20,6 +20,7 @@ from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     Duration,
     NonNegativeDuration,
+    PositiveDuration,
     namespace_option,
     recorded_listener_options,
 )
@@ -52,7 +53,8 @@ _SUFFIXES = tuple(f".{kind}" for kind in (*FIGURE_FORMATS, "json", "csv"))
     metavar="KIND",
     type=click.Choice(ALIGNMENTS),
     default="none",
-    help="Align the estimate first: none, se3 (rotation and translation), sim3 (also scale), or scale.",
+    help="Align the estimate first: none, se3 (rotation and translation), sim3 (also scale), scale, or hand-eye (se3, "
+    "and the constant pose between two frames of one body).",
 )
 @click.option("--align-origin", is_flag=True, help="Move the estimate so that the first poses are equal.")
 @click.option(
@@ -71,10 +73,17 @@ _SUFFIXES = tuple(f".{kind}" for kind in (*FIGURE_FORMATS, "json", "csv"))
 )
 @click.option(
     "--t-offset",
-    metavar="DURATION",
-    type=Duration,
+    "--offset",
+    metavar="DURATION|auto",
     default="0s",
-    help="Add this to the stamps of the estimate, e.g. -35ms.",
+    help="Add this to the stamps of the estimate, e.g. -35ms. auto: the offset with the smallest error.",
+)
+@click.option(
+    "--max-gap",
+    metavar="DURATION",
+    type=PositiveDuration,
+    default="500ms",
+    help="Maximum interval between two transforms of a recording for interpolation.",
 )
 @click.option(
     "--project",
@@ -113,7 +122,8 @@ def compare(
     align_origin: bool,
     n_to_align: int | None,
     max_difference: NonNegativeDuration,
-    t_offset: Duration,
+    t_offset: str,
+    max_gap: PositiveDuration,
     project: str | None,
     body_offset: tuple[float, ...] | None,
     delta: str,
@@ -132,24 +142,30 @@ def compare(
     Example: coframe compare truth.tum run.mcap:map:base_link --align se3
     """
     files = [_checked_output(path) for path in output]
-    if align_origin and align in {"se3", "sim3"}:
+    if align_origin and align in {"se3", "sim3", "hand-eye"}:
         fail(f"--align {align} and --align-origin are mutually exclusive: give one of them", code=2)
+    if align == "hand-eye" and body_offset:
+        fail("--align hand-eye and --body-offset are mutually exclusive: give one of them", code=2)
     try:
         distance = parse_delta(delta)
     except ValueError as error:
         fail(f"--delta: {error}", code=2)
+    try:
+        shift = "auto" if t_offset == "auto" else Duration(t_offset)
+    except ValueError as error:
+        fail(f"--t-offset: {error}", "Write a duration such as -35ms, or auto.", code=2)
     with run_to_completion():
         choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
-        reference = read_argument(ref, choice)
+        reference = read_argument(ref, choice, max_gap)
         results: dict[str, Comparison] = {}
         for estimate in estimates:
             result = compare_trajectories(
                 reference,
-                read_argument(estimate, choice),
+                read_argument(estimate, choice, max_gap),
                 align=align,
                 max_difference=max_difference,
                 delta=distance,
-                t_offset=t_offset,
+                t_offset=shift,
                 n_to_align=n_to_align,
                 align_origin=align_origin,
                 project=project,
@@ -199,9 +215,8 @@ def _warn_of_constant_differences(name: str, result: Comparison) -> None:
         )
     if (offset := result.body_offset) is not None:
         x, y, z = offset.transform.translation.tolist()
-        angles = np.degrees(offset.transform.rpy).tolist()
         turned = math.degrees(float(np.linalg.norm(offset.transform.as_rotvec())))
-        numbers = " ".join(f"{round(number, 6) + 0.0:.8g}" for number in (x, y, z, *angles))
+        numbers = _body_offset_numbers(offset.transform)
         (t_before, t_after), (r_before, r_after) = offset.translation_rmse, offset.rotation_rmse
         warn(
             f"{about}the frames of both trajectories differ by a constant pose of {turned:.4g} deg and "
@@ -209,6 +224,12 @@ def _warn_of_constant_differences(name: str, result: Comparison) -> None:
             f"of {_short(math.degrees(r_before))} deg, and the translation error {_short(t_after)} m instead of "
             f"{_short(t_before)} m (rmse). To remove it: --body-offset {numbers}"
         )
+
+
+def _body_offset_numbers(offset: Transform) -> str:
+    """Return a pose as for --body-offset."""
+    numbers = (*offset.translation.tolist(), *np.degrees(offset.rpy).tolist())
+    return " ".join(f"{round(number, 6) + 0.0:.8g}" for number in numbers)
 
 
 def _checked_output(path: Path) -> Path:
@@ -227,6 +248,10 @@ def _table(result: Comparison) -> str:
         lines.append(
             f"estimate scaled by {result.alignment.scale:.6f}, {rotated}, moved by [{x:.4f}, {y:.4f}, {z:.4f}] m"
         )
+    if result.t_offset:
+        lines.append(f"{result.t_offset / MILLISECOND:+.3f} ms added to the stamps of the estimate")
+    if result.applied_body_offset is not None:
+        lines.append(f"body offset: {_body_offset_numbers(result.applied_body_offset)} (m, deg)")
     rows = [
         ("APE translation [m]", result.ape.translation_statistics),
         ("APE rotation [deg]", _to_degrees(result.ape)),

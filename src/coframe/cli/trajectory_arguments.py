@@ -3,15 +3,21 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
+import numpy as np
+
+from coframe._base_error import CoframeWarning
+from coframe._output.formatting import count, duration
 from coframe._sources.sources import as_source
 from coframe._sources.urls import is_url
 from coframe.bags.formats import has_known_suffix
 from coframe.cli.output import fail, warn
 from coframe.cli.recordings import open_recording
+from coframe.time import MILLISECOND
 from coframe.trajectories import read_trajectory
 from coframe.trajectories.formats import TRAJECTORY_SUFFIXES
 
@@ -19,10 +25,19 @@ if TYPE_CHECKING:
     from collections.abc import Collection
 
     from coframe._sources.sources import Readable
+    from coframe.bags import Recording
     from coframe.bags.namespaces import TransformChoice
     from coframe.transform.transform import Transform
 
-__all__ = ["TRAJECTORY_FORMS", "frame_pair", "is_trajectory_file", "read_argument", "read_file"]
+__all__ = [
+    "MAX_GAP",
+    "TRAJECTORY_FORMS",
+    "frame_pair",
+    "is_trajectory_file",
+    "read_argument",
+    "read_file",
+    "read_frames",
+]
 
 TRAJECTORY_FORMS = (
     "a TUM, KITTI, EuRoC, CSV or npz file, BAG:/TOPIC for the poses on a topic, such as Odometry, PoseStamped or Path, "
@@ -41,12 +56,17 @@ def read_file(file: Readable) -> Transform:
     return read_trajectory(file, report=warn)
 
 
-def read_argument(text: str, choice: TransformChoice) -> Transform:
+MAX_GAP = 500 * MILLISECOND
+"""The longest interval between two transforms over which poses that are compared are interpolated, in nanoseconds."""
+
+
+def read_argument(text: str, choice: TransformChoice, max_gap: int = MAX_GAP) -> Transform:
     """Return the trajectory that an argument names; end the command if it is not one.
 
     Args:
         text: A file, ``BAG:/TOPIC`` or ``BAG:TARGET:SOURCE``; files and recordings may be URLs.
         choice: The transforms of the recording.
+        max_gap: The longest interval over which poses are interpolated, in nanoseconds.
 
     Raises:
         CoframeError: The file, the recording, the topic or the frames cannot be read.
@@ -56,7 +76,7 @@ def read_argument(text: str, choice: TransformChoice) -> Transform:
         with open_recording(path, choice) as recording:
             if source.startswith("/") and ":" not in source:
                 return recording.trajectory(source)
-            return recording.trajectory(frame_pair(source, recording.buffer.frame_names()))
+            return read_frames(recording, frame_pair(source, recording.buffer.frame_names()), max_gap)
     file = as_source(path)
     if has_known_suffix(PurePath(file.name)) or (isinstance(file, Path) and file.is_dir()):
         fail(
@@ -65,6 +85,31 @@ def read_argument(text: str, choice: TransformChoice) -> Transform:
             code=2,
         )
     return read_file(file)
+
+
+def read_frames(recording: Recording, frames: tuple[str, str], max_gap: int = MAX_GAP) -> Transform:
+    """Return the poses of a frame, without those that would be invented between transforms that are far apart.
+
+    Raises:
+        CoframeError: The frames are not connected.
+    """
+    measured = recording.trajectory(frames, max_gap=max_gap)
+    stamps = measured.stamps
+    if stamps is None or not np.size(stamps):
+        fail(
+            f"every pose of {frames[1]!r} in {frames[0]!r} lies between transforms that are more than "
+            f"{duration(max_gap)} apart",
+            "Permit interpolation over longer intervals with --max-gap.",
+        )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", CoframeWarning)
+        omitted = len(recording.trajectory(frames)) - len(measured)
+    if omitted:
+        warn(
+            f"omitted {count(omitted, 'pose')} of {frames[1]!r} in {frames[0]!r} between transforms that are more than "
+            f"{duration(max_gap)} apart; --max-gap changes this limit"
+        )
+    return measured
 
 
 def frame_pair(text: str, frames: Collection[str]) -> tuple[str, str]:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["ALIGNMENTS", "Alignment", "align", "align_origin", "align_scale", "check_positions"]
 
-ALIGNMENTS = ("none", "se3", "sim3", "scale")
+ALIGNMENTS = ("none", "se3", "sim3", "scale", "hand-eye")
 MAX_POSITION = 1e100  # meters. Squares of larger numbers overflow, and LAPACK may never return for infinite values.
 
 

@@ -36,6 +36,7 @@ __all__ = ["PLANES", "Comparison", "Delta", "PoseErrors", "Statistics", "compare
 # The axis that a projection to a plane removes.
 PLANES = {"xy": 2, "xz": 1, "yz": 0}
 _NUMBER = re.compile(r"\s*(\d+(?:\.\d*)?|\.\d+)\s*([a-z]*)\s*", re.ASCII)
+_MAX_GAP_PERIODS = 4
 _FRAME_UNITS, _METER_UNITS = {"", "f", "frame", "frames"}, {"m", "meter", "meters", "metre", "metres"}
 
 
@@ -120,6 +121,8 @@ class Comparison:
         delta: The distance between the poses of a relative error.
         body_offset: The constant pose between the frames of both trajectories, if it explains most of the error.
         time_shift: The constant difference between the clocks of both, if it explains most of the error.
+        t_offset: What was added to the stamps of the estimate, in nanoseconds.
+        applied_body_offset: The pose by which the poses of the estimate were multiplied, or None without one.
     """
 
     reference: Transform
@@ -130,6 +133,8 @@ class Comparison:
     delta: Delta
     body_offset: BodyOffset | None = None
     time_shift: TimeShift | None = None
+    t_offset: int = 0
+    applied_body_offset: Transform | None = None
 
     def as_dict(self) -> dict[str, Any]:
         """Return the statistics and the alignment as a dictionary for JSON; meters and radians."""
@@ -142,6 +147,12 @@ class Comparison:
             "pairs": len(self.reference),
             "units": {"translation": "m", "rotation": "rad"},
             "alignment": aligned,
+            "t_offset_ns": self.t_offset,
+            "applied_body_offset": self.applied_body_offset
+            and {
+                "translation": self.applied_body_offset.translation.tolist(),
+                "quaternion": self.applied_body_offset.quaternion.tolist(),
+            },
             "ape": _as_dict(self.ape),
             "rpe": {"delta": self.delta.value, "delta_unit": self.delta.unit, **_as_dict(self.rpe)},
             "body_offset": self.body_offset
@@ -166,7 +177,7 @@ def compare_trajectories(
     align: str = "none",
     max_difference: DurationLike = MAX_DIFFERENCE,
     delta: float | str | Delta = 1,
-    t_offset: DurationLike = 0,
+    t_offset: DurationLike | Literal["auto"] = 0,
     n_to_align: int | None = None,
     align_origin: bool = False,
     project: str | None = None,
@@ -182,16 +193,19 @@ def compare_trajectories(
         reference: A batch of shape (N,), such as from :func:`read_trajectory` or :meth:`coframe.Buffer.trajectory`.
         estimate: A batch of shape (M,). The names of the frames are not compared.
         align: ``none``, ``se3`` for a rigid motion of the estimate, ``sim3`` to also scale it, ``scale`` to only scale
-            it.
+            it, ``hand-eye`` for a rigid motion and the constant pose between two frames of one body, such as a camera
+            and a robot: what remains are the errors of two sensors on it.
         max_difference: The maximum difference between the stamps of two compared poses.
         delta: A number of poses, or a string for :func:`parse_delta`.
-        t_offset: What to add to the stamps of the estimate: nanoseconds, or a string such as ``"-35ms"``.
+        t_offset: What to add to the stamps of the estimate: nanoseconds, or a string such as ``"-35ms"``; ``"auto"``
+            for the shift of up to 2 s with the smallest translation error. The shifted estimate is interpolated at the
+            stamps of the reference, but not over gaps of more than four periods.
         n_to_align: The number of pairs for the alignment, from the first one; None means all.
         align_origin: Whether to move the estimate so that the first poses are equal; not with ``se3`` and ``sim3``.
         project: The plane to which both are projected after the alignment: ``xy``, ``xz`` or ``yz``. Rotations are
             those about the axis that is perpendicular to it.
         body_offset: The pose of the reference's frame relative to the frame of the estimate, such as of a camera on a
-            robot: the poses of the estimate are multiplied by it first.
+            robot: the poses of the estimate are multiplied by it first. Not with ``align="hand-eye"``, which finds it.
 
     Raises:
         TrajectoryError: No stamps match, the alignment is not determined, no two poses are ``delta`` apart, or a
@@ -210,6 +224,8 @@ def compare_trajectories(
         0.0
     """
     _check_options(align, n_to_align, project, align_origin=align_origin)
+    if align == "hand-eye" and body_offset is not None:
+        raise ValueError("align='hand-eye' estimates the body offset: give one of them")
     for name, poses in (("reference", reference), ("estimate", estimate)):
         if len(poses.shape) != 1 or not len(poses):
             raise ValueError(f"The {name} must be a batch of shape (N,) with at least one pose, not {poses.shape}.")
@@ -217,13 +233,21 @@ def compare_trajectories(
     chosen = _checked_delta(delta)
     if body_offset is not None:
         estimate = estimate @ body_offset.replace(target=estimate.source, source=estimate.source, stamp=None)
-    estimate = _shift_stamps(estimate, _signed_duration(t_offset))
     method = _Method(align, n_to_align, align_origin)
+    if t_offset == "auto":
+        shift = _best_shift(reference, estimate, method)
+        estimate = _resample(_shift_stamps(estimate, shift), reference)
+    else:
+        shift = _signed_duration(t_offset)
+        estimate = _shift_stamps(estimate, shift)
+    if align == "hand-eye":
+        body_offset = _best_body_offset(*_associate_poses(reference, estimate, method, max_difference), method)
+        estimate = estimate @ body_offset
     every = reference, estimate
     reference, estimate = _associate_poses(*every, method, max_difference)
     time_shift, found = _constant_differences(*every, method, max_difference)
     if time_shift is not None:
-        time_shift = time_shift._replace(offset=time_shift.offset + _signed_duration(t_offset))
+        time_shift = time_shift._replace(offset=time_shift.offset + shift)
     if found is not None and body_offset is not None:
         found = found._replace(transform=body_offset.replace(target=None, source=None, stamp=None) @ found.transform)
     alignment = method.alignment(reference, estimate)
@@ -239,6 +263,8 @@ def compare_trajectories(
         chosen,
         found,
         time_shift,
+        shift,
+        None if body_offset is None else body_offset.replace(target=None, source=None, stamp=None),
     )
 
 
@@ -253,7 +279,7 @@ class _Method(NamedTuple):
         """Return the alignment of paired poses, or None without one."""
         first = slice(None, self.pairs)
         used = reference[first], estimate[first]
-        if self.align in {"se3", "sim3"}:
+        if self.align in {"se3", "sim3", "hand-eye"}:
             return align(*used, with_scale=self.align == "sim3")
         scaled = align_scale(*used) if self.align == "scale" else None
         if self.origin:
@@ -264,7 +290,7 @@ class _Method(NamedTuple):
 def _check_options(align: str, n_to_align: int | None, project: str | None, *, align_origin: bool) -> None:
     if align not in ALIGNMENTS:
         raise ValueError(f"No alignment named {align!r}. Alignments: {', '.join(ALIGNMENTS)}.")
-    if align_origin and align in {"se3", "sim3"}:
+    if align_origin and align in {"se3", "sim3", "hand-eye"}:
         raise ValueError(f"align={align!r} and align_origin are mutually exclusive: give one of them")
     if n_to_align is not None and n_to_align < 1:
         raise ValueError(f"n_to_align must be at least 1, not {n_to_align}")
@@ -284,6 +310,47 @@ def _shift_stamps(poses: Transform, offset: int) -> Transform:
     if poses.stamps is None or not offset:
         return poses
     return poses.replace(stamp=poses.stamps + offset)
+
+
+def _best_shift(reference: Transform, estimate: Transform, method: _Method) -> int:
+    """Return the time shift with the smallest error in nanoseconds, 0 if no other one is better."""
+    if reference.stamps is None or estimate.stamps is None:
+        raise TrajectoryError(
+            "No time offset can be estimated: a trajectory has no stamps", hint="Give it as a duration, or omit it."
+        )
+    with_offset = method.align == "hand-eye"
+    found = find_time_shift(reference, estimate, method.alignment, with_offset=with_offset, always=True)
+    return 0 if found is None else found.offset
+
+
+def _best_body_offset(reference: Transform, estimate: Transform, method: _Method) -> Transform:
+    found = find_body_offset(reference, estimate, method.alignment, always=True)
+    if found is None:
+        raise TrajectoryError(
+            f"No body offset can be estimated from {count(len(reference), 'pair')} of poses: too few, or on one line",
+            hint="Use a trajectory with turns, or another alignment.",
+        )
+    return found.transform
+
+
+def _resample(poses: Transform, reference: Transform) -> Transform:
+    """Return poses at the stamps of the reference, except outside the poses and in gaps between them."""
+    assert poses.stamps is not None
+    assert reference.stamps is not None
+    known, rows = np.unique(np.asarray(poses.stamps, np.int64), return_index=True)
+    at = np.unique(np.asarray(reference.stamps, np.int64))
+    if len(known) < 2:
+        return poses
+    after = np.searchsorted(known, at).clip(1, len(known) - 1)
+    length = known[after] - known[after - 1]
+    at_sample = (at == known[after]) | (at == known[after - 1])
+    usable = (at >= known[0]) & (at <= known[-1]) & ((length <= _MAX_GAP_PERIODS * _period(poses)) | at_sample)
+    if not usable.any():
+        return poses
+    at, after, length = at[usable], after[usable], length[usable]
+    share = (at - known[after - 1]) / length
+    first, second = (Transform(poses.translation[i], poses.quaternion[i]) for i in (rows[after - 1], rows[after]))
+    return first.interpolate(second, share).replace(target=poses.target, source=poses.source, stamp=at)
 
 
 def _associate_poses(

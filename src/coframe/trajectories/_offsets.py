@@ -65,13 +65,16 @@ class TimeShift(NamedTuple):
     translation_rmse: tuple[float, float]
 
 
-def find_body_offset(reference: Transform, estimate: Transform, align: Align) -> BodyOffset | None:
+def find_body_offset(
+    reference: Transform, estimate: Transform, align: Align, *, always: bool = False
+) -> BodyOffset | None:
     """Return the constant pose that explains most of the rotation error or most of the translation error.
 
     Args:
         reference: The paired poses of the reference, (N,).
         estimate: The paired poses of the estimate, (N,).
         align: Returns the alignment of an estimate with the reference, or None without one.
+        always: Whether to return the best offset also if it explains less than half of the errors.
 
     Returns:
         The offset, or None if there is none, or if less than half of either error is explained by it.
@@ -100,13 +103,13 @@ def find_body_offset(reference: Transform, estimate: Transform, align: Align) ->
     # A lever arm can only be distinguished from noise if it explains the translations, and nothing gets worse.
     moved = translations[1] < _STEP_RATIO * translations[0] and rotations[1] < 1.01 * rotations[0] + 1e-9
     is_arm = float(np.linalg.norm(offset.translation)) > 3.0 * translations[1] + 1e-6
-    if not (turned or (moved and is_arm)):
+    if not (always or turned or (moved and is_arm)):
         return None
     return BodyOffset(offset, translations, rotations)
 
 
 def find_time_shift(
-    reference: Transform, estimate: Transform, align: Align, *, with_offset: bool = False
+    reference: Transform, estimate: Transform, align: Align, *, with_offset: bool = False, always: bool = False
 ) -> TimeShift | None:
     """Return the time shift of at most `MAX_SHIFT` that explains most of the translation error.
 
@@ -116,6 +119,7 @@ def find_time_shift(
         align: As in :func:`find_body_offset`.
         with_offset: Whether the frames may also differ by a constant pose, which is computed for each shift: otherwise,
             a lever arm and a shift would each hide a part of the other one.
+        always: Whether to return the best shift also if it explains less than half of the error.
 
     Returns:
         The shift, or None if none of at least a millisecond explains more than half of the error.
@@ -137,7 +141,8 @@ def find_time_shift(
             low = inner[0]
     found = (low + high) / 2
     before, after = moving.error(0.0), moving.error(found)
-    if abs(found) < _MIN_SHIFT or not after < _STEP_RATIO * before:
+    is_large = abs(found) >= _MIN_SHIFT and after < _STEP_RATIO * before
+    if not is_large and not (always and after < before):
         return None
     return TimeShift(round(found), (before, after))
 
