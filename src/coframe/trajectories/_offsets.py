@@ -35,6 +35,7 @@ _SEARCH_STEPS = 160  # of the search for a time shift
 _RESOLUTION = 10_000  # nanoseconds
 _SEARCHED_POSES = 400
 _SMOOTHING_PERIODS = 4  # periods before and after a pose
+_MAX_GAP_PERIODS = 4  # between two samples of an estimate over which it is interpolated
 _GOLDEN_RATIO = (5**0.5 - 1) / 2
 
 
@@ -157,6 +158,7 @@ class _ShiftedPair:
         self._offset = Transform()
         times = np.asarray(reference.stamps, dtype=np.int64)
         self._times = np.asarray(self._estimate.stamps, dtype=np.int64)
+        self._max_gap = _MAX_GAP_PERIODS * _period(self._times)
         width = _SMOOTHING_PERIODS * max(_period(times), _period(self._times))
         self._positions = _smooth_positions(self._times, self._estimate.translation, width)
         positions = _smooth_positions(times, reference.translation, width)
@@ -172,15 +174,23 @@ class _ShiftedPair:
 
     def error(self, shift: float) -> float:
         """Return the root mean square distance after adding a shift to the stamps of the estimate."""
-        poses = self._poses(shift)
+        inside = self._is_between_near_samples(shift)
+        if np.count_nonzero(inside) < max(_MIN_PAIRS, len(inside) // 4):
+            return float("inf")
+        poses, reference = self._poses(shift)[inside], self._reference[inside]
         try:
             for _ in range(_ROUNDS_PER_SHIFT if self._with_offset else 0):
-                near, scale = _align(self._reference, poses @ self._offset, self._alignment)
-                self._offset = self._offset @ _offset_step(self._reference, near, scale)
-            near, _ = _align(self._reference, poses @ self._offset, self._alignment)
+                near, scale = _align(reference, poses @ self._offset, self._alignment)
+                self._offset = self._offset @ _offset_step(reference, near, scale)
+            near, _ = _align(reference, poses @ self._offset, self._alignment)
         except TrajectoryError:
             return float("inf")
-        return _translation_rmse(self._reference, near)
+        return _translation_rmse(reference, near)
+
+    def _is_between_near_samples(self, shift: float) -> NDArray[np.bool_]:
+        """Return at which times the estimate is not interpolated over a gap."""
+        at = np.searchsorted(self._times, self._at - round(shift)).clip(1, len(self._times) - 1)
+        return np.asarray(self._times[at] - self._times[at - 1] <= self._max_gap)
 
     def _poses(self, shift: float) -> Transform:
         """Return the poses of the estimate at the times of the reference."""
