@@ -6,7 +6,6 @@ import pickle
 
 import numpy as np
 import pytest
-from scipy import stats
 
 from coframe import Transform
 from coframe.errors import FrameMismatchException, InvalidArgumentException
@@ -144,6 +143,7 @@ def test_shapes_of_covariances_are_checked():
 def test_mahalanobis_distance_has_a_chi_squared_distribution(rng):
     pose = random_transform(rng).with_covariance(random_covariance(rng, 0.1, 0.05))
     squares = pose.mahalanobis(scattered(rng, pose, 50_000)) ** 2
+    stats = pytest.importorskip("scipy.stats")  # Imported here because that takes a second.
     assert stats.kstest(squares, stats.chi2(6).cdf).pvalue > 1e-3
     other = pose.with_covariance(pose.covariance * 3)
     assert pose.mahalanobis(other) == pytest.approx(0.0, abs=1e-9)
