@@ -424,6 +424,36 @@ def test_saving_changes_only_what_the_user_changed():
     }
 
 
+def test_groups_and_the_order_of_the_page_are_saved():
+    document = full_file(varied)
+    config = RvizConfig.parse(yaml.safe_dump(document))
+    shown = config.description()
+    before = [one["name"] for one in shown["displays"]]
+    moved, other, last = (
+        one for one in shown["displays"] if not one["group"] and one["class"] in {"Grid", "TF", "Map"}
+    )
+    shown["groups"].append({"source": "new 1", "group": "", "name": "Mine", "enabled": False})
+    shown["groups"].append({"source": "new 2", "group": "", "name": "Empty", "enabled": True})
+    shown["groups"][0]["name"] = "renamed"
+    moved["group"] = other["group"] = "new 1"
+    added = {"class": "Axes", "name": "added", "enabled": True, "topic": None, "options": {}, "group": "new 1"}
+    at = shown["displays"].index(last)
+    shown["displays"] = [added, last, *shown["displays"][:at], *shown["displays"][at + 1 :]]
+    written = saved(config, shown)
+    again = RvizConfig.parse(yaml.safe_dump(written)).description()
+    groups = {group["source"]: group["name"] for group in again["groups"]}
+    assert "renamed" in groups.values()
+    assert "Empty" not in groups.values(), "a new group without displays is not written"
+    inside = [one["name"] for one in again["displays"] if groups.get(one["group"]) == "Mine"]
+    assert inside == ["added", *(name for name in before if name in {moved["name"], other["name"]})]
+    assert not any(one["enabled"] for one in again["displays"] if groups.get(one["group"]) == "Mine")
+    top = [one["name"] for one in again["displays"] if not one["group"]]
+    assert top[0] == last["name"]
+    assert sorted(one["name"] for one in again["displays"]) == sorted([*before, "added"])
+    (mine,) = (one for one in written["Visualization Manager"]["Displays"] if one["Name"] == "Mine")
+    assert mine["Class"] == "rviz_common/Group"
+
+
 def test_displays_in_disabled_groups_are_not_shown_and_keep_their_flags():
     document = full_file()
     config = RvizConfig(document)

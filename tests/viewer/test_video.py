@@ -3,6 +3,7 @@
 
 import struct
 from array import array
+from types import SimpleNamespace
 
 import pytest
 
@@ -66,6 +67,23 @@ def test_a_stream_without_a_key_frame_gives_the_reason():
     stream = Stream("ddd", "h264")
     with pytest.raises(CannotDrawError, match="no key frame in the last 2 messages"):
         make_renderer(stream, Options(), Resources()).draw(stream.stored[1], 0, 0)
+
+
+@pytest.mark.parametrize("encoding", ["h264", "libx264", "h264_nvenc"])
+def test_packets_of_ffmpeg_image_transport(encoding):
+    """Their definition is not part of coframe: recordings contain it."""
+    stream = Stream("kdd", "h264")
+    stream.type = "ffmpeg_image_transport_msgs/msg/FFMPEGPacket"
+    for i, stored in enumerate(stream.stored):
+        image = stored.read()
+        packet = SimpleNamespace(header=image.header, encoding=encoding, data=image.data)
+        stream.stored[i] = stored._replace(read=lambda packet=packet: packet)
+    renderer = make_renderer(stream, Options(), Resources())
+    (drawing,) = renderer.draw(stream.stored[2], 0, 0)
+    assert packets(drawing) == (False, NAMES["h264"], [(True, 1), (False, 2), (False, 3)])
+    stream.stored[0].read().encoding = "av1"
+    with pytest.raises(CannotDrawError, match=r"'av1' cannot be displayed\. Known encodings: h264, h265"):
+        renderer.draw(stream.stored[0], 0, 0)
 
 
 def test_formats_name_their_codec():

@@ -2,6 +2,7 @@
 """The most useful topics are displayed, the others are offered with a search, and displays are renamed and ordered."""
 
 import pytest
+import yaml
 
 import coframe
 from coframe.messages import find, serialize
@@ -74,8 +75,23 @@ def test_displays_are_chosen_added_renamed_duplicated_and_ordered(page):
     page.until("coframe.displays['front 2']?.topic === '/scan'")
     page.click(".card[data-display=front] button:text-is('Up')")
     assert cards(page)[:4] == ["Grid", "front", "TF", "front 2"]
+    group = page.raw.locator(".card[data-display=front] select[aria-label=Group]")
+    group.select_option(label="New group…")
+    page.raw.get_by_label("Name of the group").fill("lasers")
+    page.key("Enter")
+    page.raw.get_by_label("Show the group Group 1").uncheck()
+    page.until("coframe.displays.front.enabled === false && coframe.displays['front 2'].enabled")
     page.raw.reload()
     page.drawn()
-    page.wait(lambda: cards(page)[:4] == ["Grid", "front", "TF", "front 2"], "the displays of the last session")
+    page.wait(lambda: set(cards(page)[:4]) == {"Grid", "front", "TF", "front 2"}, "the displays of the last session")
+    assert page.texts(".display-group .card .card-title span:first-child") == ["front"]
+    assert page.raw.get_by_label("Name of the group").input_value() == "lasers"
+    page.tab("rviz")
+    with page.raw.expect_download() as download:
+        page.click("#save-rviz")
+    displays = yaml.safe_load(download.value.path().read_text())["Visualization Manager"]["Displays"]
+    (group,) = (one for one in displays if one["Class"] == "rviz_common/Group")
+    assert (group["Name"], group["Enabled"], [one["Name"] for one in group["Displays"]]) == ("lasers", False, ["front"])
+    assert "front 2" in [one["Name"] for one in displays]
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
     assert page.evaluate("document.querySelector('.tabs').scrollWidth <= document.querySelector('.tabs').clientWidth")

@@ -130,3 +130,45 @@ def check_movie(page):
     content = download.value.path().read_bytes()
     assert content[:4] == b"\x1aE\xdf\xa3" or content[4:8] == b"ftyp", "WebM or MP4"
     assert len(content) > 5000
+
+
+def axe_findings(page, part=None):
+    """Return what axe-core finds in the visible page, or in a part of it."""
+    return page.evaluate(
+        "async (part) => (await axe.run(part ?? document)).violations.map("
+        "({id, help, nodes}) => [id, help, ...nodes.slice(0, 5).map(({html}) => html.slice(0, 300))])",
+        part,
+    )
+
+
+@pytest.mark.slow
+def test_axe_finds_nothing(view, open_page, path):
+    if not AXE.is_file():
+        pytest.skip("needs axe-core: run `npm ci` in the folder viewer")
+    panels = "&".join(f"panel={name}" for name in ("plots", "states", "message", "table", "log", "graph", "control"))
+    page = open_page(f"{view(path).url}#{panels}&topic=/scan&plot=/scan.range_max", width=1280, height=720).drawn()
+    page.wait(lambda: page.raw.locator("#pane-control").is_visible(), "the panels")
+    page.raw.fill("#pane-table input", "/scan")
+    page.key("Enter")
+    page.key("Escape")
+    page.raw.locator("#canvas").focus()
+    page.key("w")
+    page.wait(lambda: page.raw.locator("#fields .field-value").count() > 5, "a message")
+    page.evaluate(AXE.read_text())
+    found = axe_findings(page)
+    for tab in ("findings", "joints", "rviz", "displays"):
+        page.tab(tab)
+        if tab == "displays":
+            page.raw.locator(".card-title").first.click()
+        found += axe_findings(page, "#panel")
+    page.raw.locator("#canvas").focus()
+    page.key("?")
+    found += axe_findings(page, "dialog[open]")
+    page.key("Escape")
+    page.click("#add-display")
+    found += axe_findings(page, "dialog[open]")
+    page.key("Escape")
+    page.raw.locator("#canvas").focus()
+    page.key("d")  # the other theme
+    found += axe_findings(page)
+    assert found == []

@@ -149,9 +149,26 @@ def test_without_transforms_the_page_shows_instructions(view, open_page):
     page.wait(lambda: page.raw.locator("#overlay .empty-scene").is_visible(), "the instructions")
     assert "No transforms yet" in page.text("#overlay .empty-scene")
     assert "coframe demo" in page.text("#overlay .empty-scene")
+    page.raw.locator("#overlay .empty-scene").get_by_role("button", name="Close").click()
+    assert page.raw.locator("#overlay .empty-scene").is_hidden(), "they can cover an image"
+    page.raw.reload()
+    page.wait(lambda: page.raw.locator("#overlay .empty-scene").is_visible(), "the instructions of a new session")
     buffer.set("map", "base", coframe.Transform(), BEGIN)
     page.shows("base")
     page.wait(lambda: not page.raw.locator("#overlay .empty-scene").is_visible(), "the hidden instructions")
+    check_lost_graphics(page)
+
+
+def check_lost_graphics(page):
+    """The browser takes the graphics card away, for example after a crash of its driver, and gives it back."""
+    context = "document.querySelector('#canvas').getContext('webgl2')"
+    page.evaluate(f"window.graphics = {context}.getExtension('WEBGL_lose_context'), graphics.loseContext()")
+    page.wait(lambda: "graphics card" in page.text("#notice"), "the notice")
+    page.evaluate("graphics.restoreContext()")
+    page.wait(lambda: page.raw.locator("#notice").is_hidden(), "the end of the notice")
+    before = page.evaluate("coframe.updates")
+    page.key("a")
+    page.until("before => coframe.updates > before", before)
 
 
 def test_the_page_reconnects_after_a_server_restart(open_page):

@@ -133,6 +133,35 @@ export class Displays {
     this.changed();
   }
 
+  renameGroup(group: RvizGroup, name: string): void {
+    group.name = name.trim() || group.name;
+    this.changed();
+  }
+
+  /** Moves a display into a group, by its place; "" is none, and null a new group. */
+  setGroup(display: Display, source: string | null): void {
+    this.automatic = false;
+    display.config.group = source ?? this.addGroup();
+    const checked = display.config.checked ?? display.config.enabled;
+    this.groups = this.groups.filter((group) => this.isUsed(group));
+    const shown = checked && this.groupsEnabled(display.config.group);
+    display.config.checked = checked;
+    if (shown !== display.config.enabled) this.setShown(display, shown);
+    this.changed();
+  }
+
+  private addGroup(): string {
+    let n = 1;
+    while (this.groups.some(({ source }) => source === `new ${n}`)) n++;
+    this.groups.push({ source: `new ${n}`, group: "", name: `Group ${n}`, enabled: true });
+    return `new ${n}`;
+  }
+
+  /** Whether a group is one of a file, or contains a display. */
+  private isUsed({ source }: RvizGroup): boolean {
+    return !source.startsWith("new ") || this.list.some(({ config }) => config.group === source);
+  }
+
   /** Whether a group and all groups that contain it are enabled. */
   groupsEnabled(source: string | undefined): boolean {
     let at = source;

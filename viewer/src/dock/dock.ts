@@ -95,6 +95,7 @@ export class Dock {
     const side = document.body.classList.contains("dock-side");
     const most = (1 - SCENE_SHARE) * (side ? innerWidth : innerHeight);
     this.size = Math.max(MIN_SIZE_PX, Math.min(most, size));
+    this.handle.setAttribute("aria-valuenow", String(Math.round(this.size)));
     document.documentElement.style.setProperty(side ? "--dock-width" : "--dock-height", `${this.size}px`);
   }
 

@@ -50,7 +50,7 @@ export class Bar {
     this.pill.append(h("span", { class: "dot" }), this.state);
     root.append(
       iconButton("menu", "Show or hide the panel (b)", actions.togglePanel),
-      h("div", { class: "brand" }, brandMark(), h("span", { class: "wide-only" }, "coframe")),
+      h("h1", { class: "brand" }, brandMark(), h("span", { class: "wide-only" }, "coframe")),
       this.title,
       h("span", { class: "spacer" }),
       h("label", {}, h("span", {}, "Fixed Frame"), this.fixed),

@@ -7,7 +7,7 @@ import { MarkersDisplay } from "../displays/markers";
 import { rvizColor } from "../displays/options";
 import { DISPLAYS, type OptionSpec } from "../generated/displays";
 import { AddDisplay } from "./add_display";
-import { fillSelect, h, iconButton, setText, shorten } from "../util/dom";
+import { fillSelect, h, iconButton, select, setText, shorten } from "../util/dom";
 import type { Model } from "../model/model";
 import type { RvizGroup } from "../protocol/messages";
 
@@ -23,6 +23,7 @@ interface Card {
 }
 
 const MAX_OMITTED = 40;
+const NEW_GROUP = "new";
 
 export class DisplaysPanel {
   readonly element: HTMLElement;
@@ -112,8 +113,18 @@ export class DisplaysPanel {
     });
     box.checked = group.enabled;
     const body = h("div", { class: "group-body" });
-    const head = h("label", { class: "group-head" }, box, h("span", {}, shorten(group.name, 60)));
-    h("div", { class: "display-group", data: { group: group.name } }, head, body);
+    const name = h("input", { type: "text", aria: { label: "Name of the group" }, maxlength: "100" });
+    name.value = group.name;
+    name.addEventListener("change", () => {
+      this.displays.renameGroup(group, name.value);
+      name.value = group.name;
+    });
+    h(
+      "div",
+      { class: "display-group", data: { group: group.name } },
+      h("div", { class: "group-head" }, box, name),
+      body,
+    );
     this.groupBodies.set(group, body);
     return body;
   }
@@ -212,6 +223,7 @@ export class DisplaysPanel {
       "div",
       {},
       field("Name", input),
+      field("Group", this.groupField(display)),
       h(
         "div",
         { class: "buttons" },
@@ -220,6 +232,21 @@ export class DisplaysPanel {
         button("Down", "Move down in the list", () => this.displays.move(display, 1)),
       ),
     );
+  }
+
+  /** The groups that the display can be in. They are listed again when the list opens, because others can be added. */
+  private groupField(display: Display): HTMLElement {
+    const choices = (): [string, string][] => [
+      ["", "None"],
+      ...this.displays.groups.map(({ source, name }): [string, string] => [source, name]),
+      [NEW_GROUP, "New group…"],
+    ];
+    const list = select("Group", choices(), display.config.group ?? "", (value) => {
+      this.displays.setGroup(display, value === NEW_GROUP ? null : value);
+      fillSelect(list, choices(), display.config.group ?? "");
+    });
+    list.addEventListener("focus", () => fillSelect(list, choices(), display.config.group ?? ""));
+    return list;
   }
 
   /** A checkbox for each namespace; new namespaces are added when they are received. */

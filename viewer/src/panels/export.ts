@@ -111,7 +111,7 @@ export class ReplayExport {
       ),
       h(
         "div",
-        { class: "sheet-body" },
+        { class: "sheet-body", tabindex: "0" },
         h("p", { class: "muted" }, "A single HTML file that plays in any browser, without a server."),
         h(
           "p",

@@ -43,7 +43,7 @@ export class FileOpener {
       ),
       h(
         "div",
-        { class: "sheet-body" },
+        { class: "sheet-body", tabindex: "0" },
         h(
           "p",
           {},

@@ -51,7 +51,7 @@ export class Shortcuts {
       ),
       h(
         "div",
-        { class: "sheet-body" },
+        { class: "sheet-body", tabindex: "0" },
         h(
           "dl",
           { class: "keys" },

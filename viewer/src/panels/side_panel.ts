@@ -17,6 +17,17 @@ export interface Tab {
 
 export class Panel {
   private readonly buttons: HTMLButtonElement[];
+  private readonly handle = h("div", {
+    class: "panel-handle",
+    role: "separator",
+    tabindex: "0",
+    aria: {
+      label: "Width of the panel",
+      orientation: "vertical",
+      valuemin: String(MIN_WIDTH_PX),
+      valuemax: String(MAX_WIDTH_PX),
+    },
+  });
   private width = 0;
 
   constructor(
@@ -49,8 +60,9 @@ export class Panel {
         iconButton("close", "Close the panel", () => this.show(false), "narrow-only"),
       ),
       ...tabs.map((tab) => tab.body),
-      this.handle(),
+      this.handle,
     );
+    this.listen();
     this.restore();
   }
 
@@ -112,16 +124,11 @@ export class Panel {
   private setWidth(width: number): void {
     this.width = Math.max(MIN_WIDTH_PX, Math.min(MAX_WIDTH_PX, width));
     document.documentElement.style.setProperty("--panel-width", `${this.width}px`);
+    this.handle.setAttribute("aria-valuenow", String(Math.round(this.width)));
   }
 
-  private handle(): HTMLElement {
-    const label = "Width of the panel";
-    const handle = h("div", {
-      class: "panel-handle",
-      role: "separator",
-      tabindex: "0",
-      aria: { label, orientation: "vertical" },
-    });
+  private listen(): void {
+    const { handle } = this;
     handle.addEventListener("pointerdown", (event) => {
       handle.setPointerCapture(event.pointerId);
       const move = (at: PointerEvent): void => this.setWidth(at.clientX);
@@ -142,6 +149,5 @@ export class Panel {
       remember("panel-width", this.width);
       event.preventDefault();
     });
-    return handle;
   }
 }

@@ -62,7 +62,7 @@ export class TimesDialog {
       ),
       h(
         "div",
-        { class: "sheet-body" },
+        { class: "sheet-body", tabindex: "0" },
         form("Go to", this.time, "Go", () => this.go()),
         h("p", { class: "muted" }, "Seconds or minutes since the start, a time of day, or a stamp in seconds."),
         form("Bookmark", this.name, "Add", () => this.add()),

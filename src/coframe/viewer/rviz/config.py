@@ -216,11 +216,11 @@ class RvizConfig:
             options: The global options, as in `description`; missing ones are not changed.
             view: The view, as in `description`; missing options are not changed.
             tools: The tools that publish, as in `description`.
-            groups: The groups whose flags may have changed, as in `description`.
+            groups: The groups, as in `description`. New ones contain displays; no group of the file is removed.
         """
         changed = RvizConfig(copy.deepcopy(self._document))
         found = [one for one in _displays(changed._manager) if one.plain_class == "Group"]  # Places before any removal.
-        changed._merge_displays(displays)
+        changed._merge_displays(displays, changed._containers(found, displays, groups))
         _merge_groups(found, groups)
         changed._merge_global(options)
         changed._merge_view(view)
@@ -263,11 +263,34 @@ class RvizConfig:
             if plain_class(view.get("Class")) in VIEW_CLASSES
         ]
 
-    def _merge_displays(self, displays: Sequence[RvizDisplay]) -> None:
+    def _containers(
+        self, found: Sequence[_Found], displays: Sequence[RvizDisplay], groups: Sequence[RvizGroup]
+    ) -> dict[str, list[Any]]:
+        """Return the lists of displays of all groups by their places, "" for the top; and add the page's new groups."""
+        self._manager["Displays"] = _sequence(self._manager, "Displays")
+        containers: dict[str, list[Any]] = {"": self._manager["Displays"]}
+        for one in found:
+            containers[one.source] = one.display["Displays"] = _sequence(one.display, "Displays")
+        used = {shown.get("group", "") for shown in displays}
+        for group in groups:
+            if group["source"] in used and group["source"] not in containers:
+                package = "rviz" if self._package == "rviz" else "rviz_common"
+                inside: list[Any] = []
+                made = {
+                    "Class": f"{package}/Group",
+                    "Displays": inside,
+                    "Enabled": group["enabled"],
+                    "Name": group["name"],
+                }
+                containers.get(group["group"], containers[""]).append(made)
+                containers[group["source"]] = inside
+        return containers
+
+    def _merge_displays(self, displays: Sequence[RvizDisplay], containers: Mapping[str, list[Any]]) -> None:
         remaining = [found for found in _displays(self._manager) if found.plain_class in DISPLAYS]
         by_source = {found.source: found for found in remaining}
         package = self._package
-        new = []
+        placed: list[tuple[list[Any], dict[str, Any]]] = []
         for shown in displays:
             if shown["class"] not in DISPLAYS:
                 continue
@@ -275,11 +298,19 @@ class RvizConfig:
             if match is not None:
                 remaining.remove(match)
                 _merge_display(match, shown, package)
+                container = containers.get(shown.get("group", match.group), match.siblings)
+                if container is not match.siblings:
+                    _remove(match)
+                    container.append(match.display)
+                placed.append((container, match.display))
             else:
-                new.append(_new_display(shown, package))
+                container = containers.get(shown.get("group", ""), containers[""])
+                container.append(_new_display(shown, package))
+                placed.append((container, container[-1]))
         for found in remaining:  # The user removed it from the page.
-            found.siblings[:] = [one for one in found.siblings if one is not found.display]
-        self._manager["Displays"] = [*_sequence(self._manager, "Displays"), *new]
+            _remove(found)
+        for container in containers.values():
+            _reorder(container, [display for inside, display in placed if inside is container])
 
     def _merge_global(self, options: Mapping[str, Any]) -> None:
         values = dict(self._global)
@@ -347,12 +378,26 @@ def _described_view(view: Mapping[str, Any]) -> RvizView:
 
 
 def _merge_groups(groups: Sequence[_Found], shown: Sequence[RvizGroup]) -> None:
-    """Write the flags of groups that the page has changed."""
+    """Write the names and flags of groups that the page has changed."""
     by_source = {group["source"]: group for group in shown}
     for found in groups:
         group = by_source.get(found.source)
+        if group is not None and group["name"] and group["name"] != found.name:
+            found.display["Name"] = group["name"]
         if group is not None and group["enabled"] != found.is_checked:
             _set_enabled(found.display, enabled=group["enabled"])
+
+
+def _remove(found: _Found) -> None:
+    found.siblings[:] = [one for one in found.siblings if one is not found.display]
+
+
+def _reorder(container: list[Any], ordered: Sequence[dict[str, Any]]) -> None:
+    """Put displays in the order of the page. Others, which the page does not show, keep their places."""
+    shown = {id(display) for display in ordered}
+    places = [place for place, one in enumerate(container) if id(one) in shown]
+    for place, display in zip(places, ordered, strict=True):
+        container[place] = display
 
 
 def _match(shown: RvizDisplay, by_source: Mapping[str, _Found], remaining: Sequence[_Found]) -> _Found | None:

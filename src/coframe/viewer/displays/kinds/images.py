@@ -140,6 +140,31 @@ class CompressedImageRenderer:
         return False
 
 
+class FFMPEGPacketRenderer:
+    """Draws the packets of ffmpeg_image_transport, whose definition is in the recording or the user's ROS packages."""
+
+    def __init__(self, messages: TopicMessages, options: Options, _resources: Resources) -> None:
+        self._video = VideoStream(messages, options)
+
+    def draw(self, message: StampedMessage, time: int, at: int) -> list[Drawing]:
+        """Return the drawing of the message.
+
+        Raises:
+            CannotDrawError: The page cannot decode the encoding.
+        """
+        del time, at
+        packet = message.read()
+        codec = codec_of(packet.encoding.replace("lib", ""))  # The encoding may be the name of an encoder: libx264.
+        if codec is None:
+            raise CannotDrawError(f"the encoding {packet.encoding!r} cannot be displayed. Known encodings: h264, h265.")
+        return [self._video.draw(message, packet, codec)]
+
+    def has_changed(self, time: int, at: int) -> bool:
+        """Return False."""
+        del time, at
+        return False
+
+
 def _options(*, project: bool) -> tuple[Option, ...]:
     needs = "Project"
     return (
@@ -161,7 +186,7 @@ def _options(*, project: bool) -> tuple[Option, ...]:
 _GUIDE = (
     "Image with one to four channels of 8 or 16 bits or floating-point numbers (mono, rgb, bgr, Bayer, yuv422, nv12, "
     "nv21, depths), CompressedImage as JPEG, PNG, compressedDepth (PNG, RVL), or h264 and h265 if the browser decodes "
-    "them; values have a normalized range; the "
+    "them, FFMPEGPacket of ffmpeg_image_transport with the same codecs; values have a normalized range; the "
     "wheel zooms, dragging pans, and the pointer shows the value of a pixel"
 )
 
@@ -170,6 +195,7 @@ IMAGE = DisplayRow(
     messages={
         "sensor_msgs/msg/CompressedImage": CompressedImageRenderer,
         "sensor_msgs/msg/Image": draw_each_message(draw_image),
+        "ffmpeg_image_transport_msgs/msg/FFMPEGPacket": FFMPEGPacketRenderer,
     },
     options=_options(project=False),
     automatic=False,
@@ -179,7 +205,10 @@ IMAGE = DisplayRow(
 )
 CAMERA = DisplayRow(
     name="Camera",
-    messages=IMAGE.messages,
+    messages={
+        "sensor_msgs/msg/CompressedImage": CompressedImageRenderer,
+        "sensor_msgs/msg/Image": draw_each_message(draw_image),
+    },
     options=_options(project=True),
     selectable=False,
     automatic=False,
