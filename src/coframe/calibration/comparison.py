@@ -28,9 +28,9 @@ _DEGREE = pi / 180.0
 # Two calibrations of one rig by different programs agree within these limits; a mistake must explain more.
 _MAX_CAUSE_DISTANCE = 5e-3  # meters
 _MAX_CAUSE_ANGLE = 0.3 * _DEGREE
-_GRID = 15  # points along each side of an image that are compared
-_LIMIT = re.compile(r"([\d.]+(?:e-?\d+)?)\s*(mm|cm|m|deg|rad|px|ms|us|s)")
-_UNITS = {
+_GRID_POINTS = 15  # points along each side of an image that are compared
+_LIMIT_PATTERN = re.compile(r"([\d.]+(?:e-?\d+)?)\s*(mm|cm|m|deg|rad|px|ms|us|s)")
+_UNIT_FACTORS = {
     "mm": 1e-3,
     "cm": 1e-2,
     "m": 1.0,
@@ -64,14 +64,14 @@ class Tolerance(NamedTuple):
         """
         values = {}
         for part in text.split(","):
-            match = _LIMIT.fullmatch(part.strip())
+            match = _LIMIT_PATTERN.fullmatch(part.strip())
             if not match:
-                raise ValueError(f"{part.strip()!r} is not a number with one of the units {', '.join(_UNITS)}")
+                raise ValueError(f"{part.strip()!r} is not a number with one of the units {', '.join(_UNIT_FACTORS)}")
             unit = match[2]
             field = {"deg": "radians", "rad": "radians", "px": "pixels"}.get(
                 unit, "meters" if unit.endswith("m") else "seconds"
             )
-            values[field] = float(match[1]) * _UNITS[unit]
+            values[field] = float(match[1]) * _UNIT_FACTORS[unit]
         return cls(**values)
 
 
@@ -245,7 +245,7 @@ def _camera_difference(name: str, first: CameraModel, second: CameraModel) -> Ca
         return CameraDifference(name, float("nan"), f"images of {w1} x {h1} and of {w2} x {h2} pixels")
     if not all(size):
         size = (int(2 * first.k[0, 2]) + 1, int(2 * first.k[1, 2]) + 1)
-    grid = np.stack(np.meshgrid(*(np.linspace(0, side - 1, _GRID) for side in size)), axis=-1).reshape(-1, 2)
+    grid = np.stack(np.meshgrid(*(np.linspace(0, side - 1, _GRID_POINTS) for side in size)), axis=-1).reshape(-1, 2)
     moved = second.project(first.rays(grid))
     off = np.linalg.norm(moved - grid, axis=1)
     if not np.isfinite(off).any():

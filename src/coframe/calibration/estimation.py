@@ -41,9 +41,9 @@ _START_ANGLES = 36  # rotations about the usual axis from which the best one sta
 _MIN_EXCITATION = 4.0  # ratio of the motion of a direction to the noise, below which it is not observable
 _MIN_MOTION = np.radians(0.3)
 _MAX_ROTATION_DEVIATION = np.radians(3.0)  # of an observable rotation
-_MAD = 1.4826
+_MAD_TO_DEVIATION = 1.4826
 _PRIOR_DEVIATION = 1.0  # meters
-_BLOCK = 2.0 * _WINDOWS[1]  # seconds
+_BLOCK_DURATION = 2.0 * _WINDOWS[1]  # seconds
 _POSES_PER_PAIR = 3.0  # The noise of a pose is in all pairs that begin or end next to it.
 
 
@@ -251,7 +251,7 @@ class _Problem:
         optimize = import_optional("scipy.optimize", "Calibration", "calibration")
         turn, place, moved = self.start(offset)
         rotation, _ = self.residuals(turn, place, offset)
-        noise = _MAD * float(np.median(np.abs(rotation)))
+        noise = _MAD_TO_DEVIATION * float(np.median(np.abs(rotation)))
         values, axes = np.linalg.eigh(moved)
         is_hidden = np.sqrt(np.maximum(values, 0.0)) < max(_MIN_EXCITATION * noise, _MIN_MOTION)
         hidden, shown = axes[:, is_hidden].T, axes[:, ~is_hidden]
@@ -273,7 +273,7 @@ class _Problem:
         step = np.zeros(count)
         for _ in range(3):
             r, t = self.residuals(*apply(step))
-            scales = np.array([max(_MAD * float(np.median(np.abs(part))), 1e-9) for part in (r, t)])
+            scales = np.array([max(_MAD_TO_DEVIATION * float(np.median(np.abs(part))), 1e-9) for part in (r, t)])
             fit = optimize.least_squares(weighted, step, loss="huber", f_scale=2.5, x_scale="jac")
             step = fit.x
         information = fit.jac.T @ fit.jac
@@ -288,7 +288,7 @@ class _Problem:
         """
         count = len(self._begin)
         rows = (fit.jac * fit.fun[:, None]).reshape(2, count, 3, -1).sum(axis=(0, 2))
-        block = (self._begin // _BLOCK).astype(np.int64)
+        block = (self._begin // _BLOCK_DURATION).astype(np.int64)
         sums = np.stack([rows[block == number].sum(axis=0) for number in np.unique(block)])
         blocks = len(sums)
         ratio = float(np.trace(np.linalg.pinv(information, hermitian=True) @ sums.T @ sums)) / len(fit.x)

@@ -133,10 +133,10 @@ def _folder(folder: Path) -> Rig:
     yamls = [file for file in files if file.suffix.lower() in _YAML_SUFFIXES]
     if not yamls:
         raise _unknown(folder)
-    return _merged([_yaml_rig(_yaml(file, _text(file))) for file in yamls], folder)
+    return _merge([_yaml_rig(_yaml(file, _text(file))) for file in yamls], folder)
 
 
-def _merged(rigs: list[Rig], folder: Path) -> Rig:
+def _merge(rigs: list[Rig], folder: Path) -> Rig:
     """Return several rigs of one folder as one."""
     cameras = {name: model for rig in rigs for name, model in rig.cameras.items()}
     offsets = {name: offset for rig in rigs for name, offset in rig.time_offsets.items()}

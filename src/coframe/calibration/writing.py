@@ -80,7 +80,7 @@ def _urdf(rig: Rig) -> str:
             f'  <joint name={name} type="fixed">',
             f"    <parent link={parent}/>",
             f"    <child link={child}/>",
-            f'    <origin xyz="{_joined(mount.translation)}" rpy="{_joined(mount.rpy)}"/>',
+            f'    <origin xyz="{_join(mount.translation)}" rpy="{_join(mount.rpy)}"/>',
             "  </joint>",
         ]
     return "\n".join([*lines, "</robot>", ""])
@@ -114,9 +114,9 @@ def _kalibr(rig: Rig) -> str:
             lines += [f"  timeshift_cam_imu: {_number(rig.time_offsets[frame])}"]
         lines += [
             f"  camera_model: {kind}",
-            f"  distortion_coeffs: [{_joined(d, ', ')}]",
+            f"  distortion_coeffs: [{_join(d, ', ')}]",
             f"  distortion_model: {model}",
-            f"  intrinsics: [{_joined(intrinsics, ', ')}]",
+            f"  intrinsics: [{_join(intrinsics, ', ')}]",
             f"  resolution: [{camera.width}, {camera.height}]",
             f"  rostopic: {json.dumps('/' + name.strip('/'))}",
         ]
@@ -161,7 +161,7 @@ def _camera_info(rig: Rig) -> str:
         if key == "distortion_coefficients":
             lines.append(f"distortion_model: {camera.lens.name}")
         rows, columns = matrix.shape
-        lines += [f"{key}:", f"  rows: {rows}", f"  cols: {columns}", f"  data: [{_joined(matrix.ravel(), ', ')}]"]
+        lines += [f"{key}:", f"  rows: {rows}", f"  cols: {columns}", f"  data: [{_join(matrix.ravel(), ', ')}]"]
     return "\n".join([*lines, ""])
 
 
@@ -225,10 +225,10 @@ WRITABLE_FORMATS = (*_WRITERS, "mcap")
 
 
 def _rows(pose: Transform) -> list[str]:
-    return [f"  - [{_joined(row, ', ')}]" for row in pose.matrix]
+    return [f"  - [{_join(row, ', ')}]" for row in pose.matrix]
 
 
-def _joined(values: Iterable[float], between: str = " ") -> str:
+def _join(values: Iterable[float], between: str = " ") -> str:
     return between.join(_number(value) for value in values)
 
 

@@ -30,7 +30,7 @@ __all__ = ["CameraModel", "RegionOfInterest"]
 
 MAX_IMAGE_SIDE = 1 << 16  # pixels
 _ROLLING_STEPS = 10
-_OUTSIDE = -1e4  # pixels
+_OUTSIDE_PIXEL = -1e4  # pixels
 _MAX_ROLLING_ERROR = 0.05  # pixels between the last two steps
 
 
@@ -158,9 +158,9 @@ class CameraModel:
         """
         flat, shape = _rows(points, 3)
         if rectified:
-            full = _homogeneous(flat @ self.r.T @ self._checked(self.p, "P")[:, :3].T + self.p[:, 3])
+            full = _to_homogeneous(flat @ self.r.T @ self._check_matrix(self.p, "P")[:, :3].T + self.p[:, 3])
         else:
-            k = self._checked(self.k, "K")
+            k = self._check_matrix(self.k, "K")
             full = self.lens.distort(flat) @ k[:2, :2].T + k[:2, 2]
         return ((full - self._offset) / self.binning).reshape(*shape, 2)
 
@@ -180,11 +180,13 @@ class CameraModel:
         flat, shape = _rows(pixels, 2)
         full = flat * self.binning + self._offset
         if rectified:
-            ahead = np.column_stack([full, np.ones(len(full))]) @ np.linalg.inv(self._checked(self.p, "P")[:, :3]).T
+            ahead = (
+                np.column_stack([full, np.ones(len(full))]) @ np.linalg.inv(self._check_matrix(self.p, "P")[:, :3]).T
+            )
             found = ahead @ self.r
             found = found / np.linalg.norm(found, axis=1, keepdims=True)
         else:
-            k = self._checked(self.k, "K")
+            k = self._check_matrix(self.k, "K")
             found = self.lens.rays((full - k[:2, 2]) @ np.linalg.inv(k[:2, :2]).T)
         return np.asarray(found.reshape(*shape, 3))
 
@@ -225,7 +227,7 @@ class CameraModel:
         They are arrays for ``cv2.remap``, shape (height, width). Pixels that the camera does not see are far outside.
         """
         pixels = np.stack(np.meshgrid(np.arange(size[0]), np.arange(size[1])), axis=-1)
-        raw = np.nan_to_num(self.project(self.rays(pixels, rectified=True)), nan=_OUTSIDE).astype(np.float32)
+        raw = np.nan_to_num(self.project(self.rays(pixels, rectified=True)), nan=_OUTSIDE_PIXEL).astype(np.float32)
         return np.ascontiguousarray(raw[..., 0]), np.ascontiguousarray(raw[..., 1])
 
     def project_rolling(
@@ -268,7 +270,7 @@ class CameraModel:
     def _offset(self) -> Array:
         return np.array([self.roi.x_offset, self.roi.y_offset], np.float64)
 
-    def _checked(self, matrix: Array, name: str) -> Array:
+    def _check_matrix(self, matrix: Array, name: str) -> Array:
         if not (np.isfinite(matrix).all() and matrix[0, 0] > 0.0 and matrix[1, 1] > 0.0):
             raise CameraError(f"the camera has no calibration for this image: fx and fy of {name} must be positive")
         return matrix
@@ -282,7 +284,7 @@ def _rows(values: ArrayLike, size: int) -> tuple[Array, tuple[int, ...]]:
     return array.reshape(-1, size), array.shape[:-1]
 
 
-def _homogeneous(vectors: Array) -> Array:
+def _to_homogeneous(vectors: Array) -> Array:
     """Return places of the image plane, NaN for points that are not in front of it."""
     with np.errstate(all="ignore"):
         return np.where(vectors[:, 2:] > 0.0, vectors[:, :2] / vectors[:, 2:], np.nan)

@@ -98,7 +98,7 @@ class PolynomialLens(_BaseLens):
     def rays(self, places: Array) -> Array:
         """Return the unit vectors to places of the image plane."""
         flat = self.undistort_flat(places)
-        return _unit(np.concatenate([flat, np.ones((len(flat), 1))], axis=1))
+        return _unit_vectors(np.concatenate([flat, np.ones((len(flat), 1))], axis=1))
 
     def distort_flat(self, flat: Array) -> Array:
         """Move places of an undistorted image plane (N, 2) as the lens does."""
@@ -238,7 +238,7 @@ class DoubleSphereLens(_BaseLens):
         second = np.sqrt(x * x + y * y + shifted * shifted)
         w1 = alpha / (1.0 - alpha) if alpha <= 0.5 else (1.0 - alpha) / alpha
         w2 = (w1 + xi) / np.sqrt(2.0 * w1 * xi + xi * xi + 1.0)
-        return _divided(points, alpha * second + (1.0 - alpha) * shifted, z > -w2 * first)
+        return _divide(points, alpha * second + (1.0 - alpha) * shifted, z > -w2 * first)
 
     def rays(self, places: Array) -> Array:
         """Return the unit vectors to places of the image plane."""
@@ -262,7 +262,7 @@ class EnhancedUnifiedLens(_BaseLens):
         x, y, z = points.T
         length = np.sqrt(beta * (x * x + y * y) + z * z)
         w = alpha / (1.0 - alpha) if alpha <= 0.5 else (1.0 - alpha) / alpha
-        return _divided(points, alpha * length + (1.0 - alpha) * z, z > -w * length)
+        return _divide(points, alpha * length + (1.0 - alpha) * z, z > -w * length)
 
     def rays(self, places: Array) -> Array:
         """Return the unit vectors to places of the image plane."""
@@ -271,7 +271,7 @@ class EnhancedUnifiedLens(_BaseLens):
         with np.errstate(invalid="ignore"):
             root = np.sqrt(1.0 - (2.0 * alpha - 1.0) * beta * square)
             z = (1.0 - beta * alpha * alpha * square) / (alpha * root + 1.0 - alpha)
-        return _unit(np.concatenate([places, z[:, None]], axis=1))
+        return _unit_vectors(np.concatenate([places, z[:, None]], axis=1))
 
 
 class OmnidirectionalLens(_BaseLens):
@@ -284,7 +284,7 @@ class OmnidirectionalLens(_BaseLens):
         xi, *polynomial = self.coefficients
         length = np.linalg.norm(points, axis=1)
         lowest = xi if xi <= 1.0 else 1.0 / xi
-        flat = _divided(points, points[:, 2] + xi * length, points[:, 2] > -lowest * length)
+        flat = _divide(points, points[:, 2] + xi * length, points[:, 2] > -lowest * length)
         return PolynomialLens(polynomial).distort_flat(flat)
 
     def rays(self, places: Array) -> Array:
@@ -294,7 +294,7 @@ class OmnidirectionalLens(_BaseLens):
         square = np.sum(flat * flat, axis=1)
         with np.errstate(invalid="ignore"):
             z = 1.0 - xi * (square + 1.0) / (xi + np.sqrt(1.0 + (1.0 - xi * xi) * square))
-        return _unit(np.concatenate([flat, z[:, None]], axis=1))
+        return _unit_vectors(np.concatenate([flat, z[:, None]], axis=1))
 
 
 class FieldOfViewLens(_BaseLens):
@@ -320,17 +320,17 @@ class FieldOfViewLens(_BaseLens):
             scale = np.tan(radius * w) / (2.0 * radius * np.tan(w / 2.0)) if w else np.ones(len(places))
             flat = places * np.where(radius > 0.0, scale, w / (2.0 * np.tan(w / 2.0)) if w else 1.0)[:, None]
         flat[radius * abs(w) >= np.pi / 2.0] = np.nan
-        return _unit(np.concatenate([flat, np.ones((len(flat), 1))], axis=1))
+        return _unit_vectors(np.concatenate([flat, np.ones((len(flat), 1))], axis=1))
 
 
-def _divided(points: Array, by: Array, seen: NDArray[np.bool_]) -> Array:
+def _divide(points: Array, by: Array, seen: NDArray[np.bool_]) -> Array:
     with np.errstate(all="ignore"):
         places = points[:, :2] / by[:, None]
     places[~(seen & (by > 0.0))] = np.nan
     return np.asarray(places)
 
 
-def _unit(vectors: Array) -> Array:
+def _unit_vectors(vectors: Array) -> Array:
     return np.asarray(vectors / np.linalg.norm(vectors, axis=1, keepdims=True))
 
 

@@ -134,10 +134,10 @@ def lens_of(name: str, coefficients: Sequence[float] = ()) -> Lens:
             )
         found = "plumb_bob"
     model = _MODELS[found]
-    return model.lens(_fitted(shown, values, model))
+    return model.lens(_fit_length(shown, values, model))
 
 
-def _fitted(shown: str, values: list[float], model: _Model) -> list[float]:
+def _fit_length(shown: str, values: list[float], model: _Model) -> list[float]:
     """Return the coefficients in a number that the model has."""
     if not any(values) and model.zeros_by_default:
         return [0.0] * model.counts[0]

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
 __all__ = ["calib"]
 
-_CALIBRATION = f"A file or folder: {', '.join(FORMATS)}."
-_DIFFERENT = 1  # exit code
+_CALIBRATION_HELP = f"A file or folder: {', '.join(FORMATS)}."
+_EXIT_DIFFERENT = 1  # exit code
 
 calib = CommandGroup(
     "calib",
@@ -34,7 +34,7 @@ calib = CommandGroup(
 
 
 @calib.command("show", short_help="Print a calibration and the convention of its format.")
-@argument("calibration", metavar="CALIBRATION", type=PATH, help=_CALIBRATION)
+@argument("calibration", metavar="CALIBRATION", type=PATH, help=_CALIBRATION_HELP)
 def show(calibration: Path) -> None:
     """Print the mounts, cameras and time offsets of a calibration, and the convention of its format.
 
@@ -61,7 +61,7 @@ def show(calibration: Path) -> None:
 
 
 @calib.command("convert", short_help="Write a calibration in another format.")
-@argument("calibration", metavar="CALIBRATION", type=PATH, help=_CALIBRATION)
+@argument("calibration", metavar="CALIBRATION", type=PATH, help=_CALIBRATION_HELP)
 @click.option("--output", "-o", metavar="FILE", type=PATH, required=True, help="File to write.")
 @click.option(
     "--to",
@@ -79,21 +79,21 @@ def convert(calibration: Path, output: Path, format_: str | None, camera: str | 
     with run_to_completion():
         rig = read(calibration)
         if camera is not None:
-            rig = _only(rig, camera)
+            rig = _select_camera(rig, camera)
         try:
             write(rig, output, format_)
         except OSError as error:
             fail_to_write(output, error)
 
 
-def _only(rig: Rig, camera: str) -> Rig:
+def _select_camera(rig: Rig, camera: str) -> Rig:
     if camera not in rig.cameras:
         raise CalibrationError(f"no camera {camera!r}. Cameras: {', '.join(rig.cameras) or 'none'}")
     return replace(rig, cameras={camera: rig.cameras[camera]})
 
 
 @calib.command("diff", short_help="Compare two calibrations, and name the mistake that explains a difference.")
-@argument("first", metavar="A", type=PATH, help=_CALIBRATION)
+@argument("first", metavar="A", type=PATH, help=_CALIBRATION_HELP)
 @argument("second", metavar="B", type=PATH, help="The other calibration.")
 @click.option(
     "--tolerance",
@@ -130,7 +130,7 @@ def diff(first: Path, second: Path, tolerance: str, rename: tuple[str, ...], as_
         found = compare_rigs(read(first), read(second), names)
         print(json.dumps(_as_dict(found, limits)) if as_json else _as_text(found, limits))
         if found.exceeds(limits):
-            raise Exit(_DIFFERENT)
+            raise Exit(_EXIT_DIFFERENT)
 
 
 def _as_text(found: Difference, limits: Tolerance) -> str:

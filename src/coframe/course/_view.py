@@ -29,13 +29,23 @@ _SYSTEM: Final = (
 )
 # Environment variables that list installation prefixes, and folders of packages and libraries.
 _INSTALLATIONS: Final = ("AMENT_PREFIX_PATH", "VIRTUAL_ENV")
-_PARTS: Final = ("bin", "etc", "include", "lib", "lib64", "local", "pyvenv.cfg", "share", "ssl")  # of an installation
+_INSTALLATION_PARTS: Final = (
+    "bin",
+    "etc",
+    "include",
+    "lib",
+    "lib64",
+    "local",
+    "pyvenv.cfg",
+    "share",
+    "ssl",
+)  # of an installation
 _FOLDERS: Final = ("LD_LIBRARY_PATH", "PYTHONPATH")
 _CONFIGURATION: Final = "/etc"
 _WORLD_READABLE = 0o4  # the permission bit that lets all users read a file
 _DDS_CONFIGURATION: Final = "CYCLONEDDS_URI"
 _PRIVATE_FOLDERS: Final = ("/", "/home", "/root", "/run", "/tmp", "/var/tmp")  # noqa: S108 - they are kept out
-_MAPPED = Path("/proc/self/maps")
+_MEMORY_MAPS = Path("/proc/self/maps")
 _MAX_LINKS = 40  # maximum number of links in a path, as in the kernel
 
 
@@ -115,7 +125,7 @@ def _find_installed_parts(path: str, private: set[str]) -> Iterator[str]:
     if is_system or not any(_is_below(each, path) for each in private):
         yield path
     else:
-        yield from (f"{path}/{name}" for name in _PARTS)
+        yield from (f"{path}/{name}" for name in _INSTALLATION_PARTS)
 
 
 def _packages() -> Iterator[str]:
@@ -125,8 +135,8 @@ def _packages() -> Iterator[str]:
     # The packages and libraries that the grader itself has loaded.
     for module in tuple(sys.modules.values()):
         yield from _absolute_path(os.path.dirname(getattr(module, "__file__", None) or ""))  # noqa: PTH120
-    if _MAPPED.is_file():
-        for line in _MAPPED.read_text(errors="replace").splitlines():
+    if _MEMORY_MAPS.is_file():
+        for line in _MEMORY_MAPS.read_text(errors="replace").splitlines():
             if "/" in line:
                 yield os.path.dirname("/" + line.partition("/")[2])  # noqa: PTH120
 

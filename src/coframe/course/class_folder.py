@@ -118,7 +118,7 @@ def _version(path: Path) -> int:
 
 def _submission(attempts: list[_Attempt], extract: _Extraction) -> Submission:
     """Return the last attempt of a student as a submission."""
-    attempts = _joined(attempts)
+    attempts = _join_loose_files(attempts)
     last = max(attempts, key=lambda attempt: attempt.order)
     place = last.paths[0]
     if len(last.paths) == 1 and place.is_dir():
@@ -130,7 +130,7 @@ def _submission(attempts: list[_Attempt], extract: _Extraction) -> Submission:
     return Submission(find_lab_folder(folder), len(attempts), last.is_late)
 
 
-def _joined(attempts: list[_Attempt]) -> list[_Attempt]:
+def _join_loose_files(attempts: list[_Attempt]) -> list[_Attempt]:
     """Return the attempts, with loose files that Canvas delivers one by one joined to one attempt."""
     archives = [attempt for attempt in attempts if not attempt.order[0] or _is_archive(attempt.paths[0])]
     loose: dict[int, list[_Attempt]] = {}

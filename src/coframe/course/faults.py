@@ -49,7 +49,7 @@ _DESCRIPTION = module_program("robot_description", "coframe.course._description"
 _JOINTS = _node("dynamic_tf_broadcaster", "publish_joint_states:=true", title="joint_driver")
 
 
-def _described(fault: str) -> tuple[NamedCommand, ...]:
+def _programs_with_description(fault: str) -> tuple[NamedCommand, ...]:
     """Return the system with joint states and a robot description, in which the arm has a fault."""
     arm = _node_with_fault(fault, "dynamic_tf_broadcaster")
     return _DESCRIPTION, _JOINTS, _STATIC, arm, _LISTENER, _LIDAR, _SENSOR
@@ -60,7 +60,9 @@ _STATIC_ON_LINK = _node(
 )
 _LONG_ARM = _node("dynamic_tf_broadcaster", "link_lengths:=[0.9, 0.4]")
 _SQRT_HALF = 0.5**0.5
-_IGNORED = frozenset(("a", "an", "the", "of", "in", "is", "are", "it", "to", "and", "has", "have", "its", "transforms"))
+_IGNORED_WORDS = frozenset(
+    ("a", "an", "the", "of", "in", "is", "are", "it", "to", "and", "has", "have", "its", "transforms")
+)
 # Words of answers, and the word for the same meaning in the names above.
 _SYNONYMS = {
     "misspelt": "misspelled",
@@ -147,7 +149,7 @@ FAULTS = (
     Fault(
         "degrees",
         "The joint angles are in degrees, but are used as radians: the arm turns around several times.",
-        _described("degrees"),
+        _programs_with_description("degrees"),
         ("degree",),
     ),
     Fault(
@@ -238,19 +240,19 @@ FAULTS = (
     Fault(
         "whole angle",
         "The quaternions of the joints use the whole angle instead of half of it: the arm turns twice as far.",
-        _described("whole angle"),
+        _programs_with_description("whole angle"),
         ("half angle", "double angle", "angle doubled", "angle twice"),
     ),
     Fault(
         "wrong sign",
         "The joints turn in the wrong direction: the signs of their angles are changed.",
-        _described("sign"),
+        _programs_with_description("sign"),
         ("sign of angle", "sign changed", "wrong direction", "inverted joints", "negated angle"),
     ),
     Fault(
         "exchanged joints",
         "Each joint has the angle of the other one, as if the order in /joint_states were always the same.",
-        _described("exchanged joints"),
+        _programs_with_description("exchanged joints"),
         ("joints swapped", "joint order", "swapped joints"),
     ),
     Fault(
@@ -335,7 +337,7 @@ def _words(text: str) -> frozenset[str]:
     """Return the words of an answer without endings, with one word for each meaning."""
     words = re.findall(r"[\w./]+", text.casefold().replace("-", " "))
     stems = (word.strip("./") for word in words)
-    return frozenset(_SYNONYMS.get(word, _stem(word)) for word in stems if word and word not in _IGNORED)
+    return frozenset(_SYNONYMS.get(word, _stem(word)) for word in stems if word and word not in _IGNORED_WORDS)
 
 
 def _stem(word: str) -> str:

@@ -120,7 +120,7 @@ def read_roster(path: Path) -> Roster:
     if len(rows) > _MAX_STUDENTS:
         raise CourseError(f"{path} has more than {_MAX_STUDENTS} students.", hint="Split it into several files.")
     points = next((row for row in rows[:1] if _POINTS_ROW in "".join(row.values()).casefold()), None)
-    students = _distinct([_student(row, found) for row in rows if row is not points and any(row.values())])
+    students = _make_keys_distinct([_student(row, found) for row in rows if row is not points and any(row.values())])
     keys = [each.key for each in students]
     if twice := sorted({key for key in keys if keys.count(key) > 1}):
         raise CourseError(
@@ -180,7 +180,7 @@ def _other_name(email: str, login: str, number: str, participant: str) -> str:
     return email.partition("@")[0] or login or number or participant
 
 
-def _distinct(students: list[Student]) -> list[Student]:
+def _make_keys_distinct(students: list[Student]) -> list[Student]:
     """Return the students, with longer keys for those with the same name."""
     keys = [each.key for each in students]
     return [

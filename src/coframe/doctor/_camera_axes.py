@@ -66,7 +66,7 @@ def wrong_axes(observation: Observation, edge: Edge) -> WrongAxes | None:
     if _is_body_of(edge.parent, edge.child):
         return _check_rep103_rotation(edge) or _optical_values_for_the_body(observation, edge)
     chain = [edge] if is_base_frame(edge.parent) else [edge, *observation.mounts(edge.parent)]
-    turn = _product(chain, None)
+    turn = _chain_rotation(chain, None)
     if not is_base_frame(chain[-1].parent) or _REAR_NAMES.search(edge.child.lower()):
         return None
     if _angle(turn, _IDENTITY) < _MAX_UNROTATED_ANGLE:
@@ -187,7 +187,7 @@ def _find_corrected_edge(chain: Sequence[Edge], turn: NDArray[np.float64]) -> Wr
     for edge in chain:
         found: dict[str, Correction] = {}
         for correction in corrections(np.concatenate([edge.values[-1, :3], edge.rotations[-1]])):
-            right, down, forward = _axes(_product(chain, (edge, correction.pose[3:])))
+            right, down, forward = _axes(_chain_rotation(chain, (edge, correction.pose[3:])))
             if abs(right[2]) < _MAX_TILT_SINE and down[2] < -_MIN_ALIGNED_COSINE and forward[0] > _MIN_ALIGNED_COSINE:
                 found.setdefault(correction.reading, correction)
         if found:
@@ -198,7 +198,7 @@ def _find_corrected_edge(chain: Sequence[Edge], turn: NDArray[np.float64]) -> Wr
     return None
 
 
-def _product(chain: Sequence[Edge], changed: tuple[Edge, NDArray[np.float64]] | None) -> NDArray[np.float64]:
+def _chain_rotation(chain: Sequence[Edge], changed: tuple[Edge, NDArray[np.float64]] | None) -> NDArray[np.float64]:
     """Return the rotation from the upper end of a chain to its lower end, with another rotation of one edge."""
     turn = _IDENTITY
     for edge in reversed(chain):

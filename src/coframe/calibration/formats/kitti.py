@@ -52,7 +52,7 @@ def read_kitti(documents: list[Place]) -> Rig:
     notes: list[str] = []
     for document in documents:
         if {"R", "T"} <= set(document.value):
-            mounts.append(_between(document))
+            mounts.append(_mount_between(document))
         elif any(re.fullmatch(r"P_rect_\d\d", name) for name in document.value):
             _read_raw_cameras(document, mounts, cameras)
         else:
@@ -60,7 +60,7 @@ def read_kitti(documents: list[Place]) -> Rig:
     return Rig(tuple(mounts), cameras, {}, "KITTI", CONVENTION, tuple(notes))
 
 
-def _between(document: Place) -> Transform:
+def _mount_between(document: Place) -> Transform:
     """Return the mount in a file of R and T, whose frames are in the name of the file."""
     motion = document["R"].rigid(document["R"].numbers(9).reshape(3, 3), document["T"].numbers(3))
     match = re.search(r"(imu|velo)_to_(velo|cam)", document.file)

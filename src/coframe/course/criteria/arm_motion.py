@@ -109,12 +109,12 @@ _LAWS = (
         lambda joint, t: _AMPLITUDES[joint] * np.cos(_TWO_PI * _FREQUENCIES[joint] * t + _PHASES[joint]),
     ),
 )
-_STILL = "the angle does not change: the time since the start does not advance, or it is not used"
-_COUNTED = (
+_STILL_CAUSE = "the angle does not change: the time since the start does not advance, or it is not used"
+_COUNTED_CAUSE = (
     "the time is counted in calls of the timer, which may be late: compute it from the clock, "
     "(now - start).nanoseconds / 1e9"
 )
-_REAL_TIME = "the time is that of the system (time.time()): use the clock of the node, self.get_clock().now()"
+_REAL_TIME_CAUSE = "the time is that of the system (time.time()): use the clock of the node, self.get_clock().now()"
 
 
 class JointSamples(NamedTuple):
@@ -208,7 +208,7 @@ def _find_trial(joint: int, samples: JointSamples, period: float) -> _Trial | No
             if _deviation(formula, angles, samples.quaternions).min() <= ANGLE:
                 return _Trial(law.cause or formula.cause, formula)
     if np.abs(np.abs(samples.quaternions @ samples.quaternions[0]) - 1.0).max() < 1e-12:
-        return _Trial(_STILL, _FORMULAS[0])
+        return _Trial(_STILL_CAUSE, _FORMULAS[0])
     return _other_time(joint, samples, period)
 
 
@@ -217,8 +217,8 @@ def _other_time(joint: int, samples: JointSamples, period: float) -> _Trial | No
     offsets = np.arange(-_BEFORE_FIRST, _BEFORE_FIRST, _STEP)
     counted = np.arange(len(samples.times)) * period
     for cause, times, limit in (
-        (_COUNTED, counted, ANGLE),
-        (_REAL_TIME, samples.arrived - samples.arrived[0], _REAL_TIME_ANGLE),
+        (_COUNTED_CAUSE, counted, ANGLE),
+        (_REAL_TIME_CAUSE, samples.arrived - samples.arrived[0], _REAL_TIME_ANGLE),
     ):
         for formula in _FORMULAS[:1]:
             angles = specified_angle(joint, times[None, :] - offsets[:, None])

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from coframe.transform.transform import Transform
 
 __all__ = [
-    "BLOCKED",
+    "BLOCKED_CAUSE",
     "NO_ROTATION_VALUES",
     "edge_cause",
     "log_cause",
@@ -31,17 +31,17 @@ __all__ = [
     "quaternion_values",
 ]
 
-BLOCKED = (
+BLOCKED_CAUSE = (
     "the node does not run its callbacks: a loop or a sleep, for example in the constructor, prevents rclpy.spin(node) "
     "from running them. Use create_timer"
 )
 NO_ROTATION_VALUES = "the quaternion is 0, 0, 0, 0, so tf2 rejects the transform: without a rotation, w is 1.0"
-_SWAPPED = "parent and child are swapped: header.frame_id is the parent, child_frame_id is the child"
-_TYPED_DIGITS = (
+_SWAPPED_CAUSE = "parent and child are swapped: header.frame_id is the parent, child_frame_id is the child"
+_TYPED_DIGITS_CAUSE = (
     "the components of the quaternion are rounded, so its length is not 1: use math.sqrt(0.5), or math.sin and "
     "math.cos of half the angle, instead of typed digits such as 0.707"
 )
-_ROUNDED = 5e-4  # the error of a component that was typed with three digits
+_MAX_ROUNDING_ERROR = 5e-4  # the error of a component that was typed with three digits
 _UNIT_TOLERANCE = 1e-6
 _MAX_PERIOD_ERROR = 0.02  # as a fraction
 # In the failure of a lookup, as tf2 writes it.
@@ -79,7 +79,7 @@ def edge_cause(parent: str, child: str, edges: Iterable[tuple[str, str]], known:
     """
     received = list(dict.fromkeys(edges))
     if (child, parent) in received:
-        return _SWAPPED
+        return _SWAPPED_CAUSE
     for found_parent, found_child in received:
         if found_child == child and found_parent != parent:
             mistake = "" if found_parent in known else name_mistake(found_parent, parent)
@@ -109,8 +109,8 @@ def pose_cause(pose: Transform, turned: Any, expected: Transform) -> str:
         return NO_ROTATION_VALUES
     if abs(length - 1.0) > _UNIT_TOLERANCE:
         correct = expected.quaternion * np.sign(expected.quaternion @ values or 1.0)
-        if np.abs(values - correct).max() < _ROUNDED:
-            return _TYPED_DIGITS
+        if np.abs(values - correct).max() < _MAX_ROUNDING_ERROR:
+            return _TYPED_DIGITS_CAUSE
         if np.isfinite(values).all() and (cause := likely_cause(values[None])):
             return f"{cause.text}. {cause.fix}".rstrip(".")
     if np.allclose(pose.quaternion, [0.0, 0.0, 0.0, 1.0]) and not np.allclose(

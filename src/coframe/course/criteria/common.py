@@ -11,7 +11,7 @@ import numpy as np
 
 from coframe._files.os_errors import explain
 from coframe.course._program import StudentProgram
-from coframe.course.criteria.causes import BLOCKED, log_cause
+from coframe.course.criteria.causes import BLOCKED_CAUSE, log_cause
 from coframe.course.submitted import MISSING_FILE, check_submitted, is_submitted
 from coframe.errors import CoframeError, CourseError
 from coframe.robots.files import expand_xacro
@@ -97,7 +97,7 @@ def run_program(
             silence = _silence_reason(sheet.file, world, outputs)
             cause = silence_cause(program.output().decode(errors="replace")) if silence else ""
         elif world.is_blocked():
-            cause = BLOCKED
+            cause = BLOCKED_CAUSE
     finally:
         world.stop()
         world.stop_publishing()
@@ -111,7 +111,9 @@ def run_program(
     elif silence and not problem:
         sheet.withdraw(first, silence)
         sheet.set_cause(first, cause)
-    elif program.violation or cause == BLOCKED:  # What was observed has this cause, whatever else would explain it.
+    elif (
+        program.violation or cause == BLOCKED_CAUSE
+    ):  # What was observed has this cause, whatever else would explain it.
         sheet.set_cause(first, _as_cause(program.violation) or cause, replace=True)
     else:
         sheet.set_cause(first, _as_cause(problem) or cause)

@@ -38,7 +38,7 @@ _JOINTS = ("joint1", "joint2")
 _TOPIC = "/joint_states"
 _JOINT_STATE_PERIOD = 2 * STEP
 _MAX_AGE = 10 * STEP  # of the joint state that the arm follows
-_PAUSE = 0.13  # seconds by which the timer of the program is late once
+_PAUSE_DURATION = 0.13  # seconds by which the timer of the program is late once
 _MIN_SETS = 3
 _SLOW_STEP, _SLOW_STEPS = 1.0, 100  # seconds; the clock runs faster if the program has published almost nothing
 _REAL_SECONDS, _REAL_SETS = 2.0, 3  # for the stamps with the clock of the system
@@ -99,7 +99,7 @@ def _run(world: World, program: StudentProgram) -> _Published:
 
     world.start(program)
     world.run(2.5)
-    world.jump(_PAUSE)
+    world.jump(_PAUSE_DURATION)
     world.run(2.5)
     for _ in range(_SLOW_STEPS):
         if len(received()) > _MIN_SETS * len(_EDGES):
@@ -119,14 +119,14 @@ def _run(world: World, program: StudentProgram) -> _Published:
     return _Published(simulated, in_order, swapped, received()[first:], topic, subscriptions)
 
 
-def _given_angles(seconds: float) -> tuple[float, float]:
+def _published_angles(seconds: float) -> tuple[float, float]:
     """Return the joint states published by the check: the arm swings slowly, far from the simulated motion."""
     return 1.2 + 0.1 * float(np.sin(seconds)), -0.9 + 0.1 * float(np.cos(seconds))
 
 
 def _publish_joint_states(world: World, now: int, joints: tuple[str, ...]) -> None:
     if now % _JOINT_STATE_PERIOD == 0:
-        angles = dict(zip(_JOINTS, _given_angles(to_seconds(now)), strict=True))
+        angles = dict(zip(_JOINTS, _published_angles(to_seconds(now)), strict=True))
         state = JointState(name=list(joints), position=[angles[joint] for joint in joints])
         state.header.stamp = stamp_of(now)
         world.publish(_TOPIC, state)
@@ -380,7 +380,7 @@ def _is_followed(received: Received, formula: Formula, *, exchanged: bool = Fals
     """
     found = _rotations(received)
     for age in range(0, _MAX_AGE + 1, STEP):
-        angles = np.array(_given_angles(to_seconds(received.time - age)))
+        angles = np.array(_published_angles(to_seconds(received.time - age)))
         expected = dict(zip(CHILDREN, formula.quaternions(angles[::-1] if exchanged else angles), strict=True))
         cosines = [abs(float(found[child] @ expected[child])) for child in found]
         if all(2.0 * np.sqrt(max(2.0 * (1.0 - cosine), 0.0)) <= ANGLE for cosine in cosines):

@@ -40,15 +40,17 @@ _PERIOD = 2 * STEP
 # Between two samples, tf2 interpolates linearly; the arm moves on circles, which deviates by less than this.
 _INTERPOLATION_TOLERANCE = 1e-4  # meters
 _MAX_AGE = 3 * SECOND // 2  # age of a transform that a listener may still use while the broadcaster is missing
-_AHEAD = SECOND // 2  # to recognize a node that asks for the current time
+_LEAD_TIME = SECOND // 2  # to recognize a node that asks for the current time
 # The arm of the check is tilted: only a pose that was looked up is right, not one computed from the assignment.
-_TILT = Transform.from_rpy((0.03, -0.02, 0.05), roll=0.3, pitch=-0.2)
-_NOW = (
+_TILT_TRANSFORM = Transform.from_rpy((0.03, -0.02, 0.05), roll=0.3, pitch=-0.2)
+_NOW_CAUSE = (
     "the lookup asks for the current time, self.get_clock().now(), whose transform has not arrived yet: "
     "ask for Time(), the latest one"
 )
-_COMPUTED = "the pose is computed from the numbers of the assignment, not looked up: in the check, the arm is tilted"
-_SWAPPED = "target and source are swapped: lookup_transform('base_link', 'end_effector', ...)"
+_COMPUTED_CAUSE = (
+    "the pose is computed from the numbers of the assignment, not looked up: in the check, the arm is tilted"
+)
+_SWAPPED_CAUSE = "target and source are swapped: lookup_transform('base_link', 'end_effector', ...)"
 _READ = "handbook chapter 4, what lookup_transform(target, source) means"
 _TIME_CHAPTER = "handbook chapter 5, time, interpolation, waiting"
 
@@ -59,7 +61,7 @@ class _TiltedRobot(SimulatedRobot):
     def arm(self, angles: tuple[float, float]) -> list[Transform]:
         """Return the transforms base_link -> link1 -> link2 -> end_effector for two joint angles."""
         first, *others = super().arm(angles)
-        tilted = _TILT @ Transform(first.translation, first.quaternion)
+        tilted = _TILT_TRANSFORM @ Transform(first.translation, first.quaternion)
         return [Transform(tilted.translation, tilted.quaternion, target=first.target, source=first.source), *others]
 
 
@@ -77,8 +79,8 @@ def check(task: Task) -> Sheet:
     def silence_cause(output: str) -> str:
         if not world.has_subscription("/tf"):
             return "there is no TransformListener, which receives the transforms for the buffer"
-        world.run(1.0, lambda now: publish(now, ahead=_AHEAD))
-        return _NOW if poses else log_cause(output)
+        world.run(1.0, lambda now: publish(now, ahead=_LEAD_TIME))
+        return _NOW_CAUSE if poses else log_cause(output)
 
     with run_program(task, sheet, silence_cause=silence_cause) as program:
         topic, steady, names, resumed_at, is_alive = _TOPIC, [], [], 0, False
@@ -150,7 +152,7 @@ def _check_poses(sheet: Sheet, task: Task, poses: list[Received]) -> None:
         frames == ["base_link"],
         expected="header.frame_id is base_link",
         observed=f"header.frame_id is {', '.join(map(repr, frames))}" if frames else "no poses",
-        cause=(cause if cause == _SWAPPED else _frame_cause(frames)) if frames else "",
+        cause=(cause if cause == _SWAPPED_CAUSE else _frame_cause(frames)) if frames else "",
         read=_READ,
     )
     sheet.check(
@@ -219,8 +221,8 @@ def _pose_trials(task: Task, robot: SimulatedRobot, poses: list[Received]) -> It
     found = [read_pose(each.message) for each in poses]
     stamps = [stamp_ns(each.message) for each in poses]
     truth = [robot.end_effector(stamp) for stamp in stamps]
-    yield _SWAPPED, [one.inverse() for one in truth]
-    yield _COMPUTED, [SimulatedRobot(task.assignment).end_effector(stamp) for stamp in stamps]
+    yield _SWAPPED_CAUSE, [one.inverse() for one in truth]
+    yield _COMPUTED_CAUSE, [SimulatedRobot(task.assignment).end_effector(stamp) for stamp in stamps]
     yield "pose.orientation is not set", [Transform(one.translation) for one in truth]
     yield "pose.position is not set", [Transform((0.0, 0.0, 0.0), one.quaternion) for one in truth]
     yield "the orientation is inverted", [Transform(one.translation, one.inverse().quaternion) for one in truth]

@@ -35,7 +35,7 @@ _RANGE_MIN, _RANGE_MAX = 0.1, 10.0
 _SCAN_PERIOD = 10 * STEP
 _SCANS = 15  # in each of the two frames
 _TOLERANCE = 1e-3  # meters
-_MEASURED = STEP // 2  # age of a scan and its transform when they are published; no value of the clock is such a stamp
+_SCAN_AGE = STEP // 2  # age of a scan and its transform when they are published; no value of the clock is such a stamp
 # Seconds of real time from a scan to the transform of its stamp. On a robot, this is usually 10 to 50 ms.
 _TRANSFORM_DELAY = 0.03
 _GRIPPER = "gripper_link"
@@ -101,14 +101,14 @@ def check(task: Task) -> Sheet:
     scans = _Scans()
 
     def publish_arm(now: int) -> None:
-        world.publish_transforms(robot.arm_at(now - _MEASURED), now - _MEASURED)
+        world.publish_transforms(robot.arm_at(now - _SCAN_AGE), now - _SCAN_AGE)
 
     def publish(now: int) -> None:
         # The clock is ahead of the scan, and the scan of its transform: neither now() nor the latest transform fits.
         if now % _SCAN_PERIOD == 0:
             frame = task.assignment.lidar.frame if len(scans.sent) < _SCANS else _GRIPPER
-            scan = _scan(robot, now - _MEASURED, frame)
-            scans.sent[now - _MEASURED] = scan
+            scan = _scan(robot, now - _SCAN_AGE, frame)
+            scans.sent[now - _SCAN_AGE] = scan
             world.publish("/scan", scan.message)
             responded = world.responds(_TRANSFORM_DELAY, _TRANSFORM_DELAY)
             if frame == _GRIPPER:  # The mount of a lidar on the base does not arrive later.

@@ -26,9 +26,9 @@ __all__ = ["CODE", "find"]
 CODE = "TF030"
 # Names that programs publish and other programs know, besides those of LENS_NAMES.
 _OTHER_NAMES = {"", "fisheye", "kannala_brandt4", "kannala_brandt", "thin_prism", "tilted", "none", "pinhole"}
-_GRID = 21  # points along each side of an image for which a ray is sought
+_GRID_POINTS = 21  # points along each side of an image for which a ray is sought
 _MAX_SHARE_WITHOUT_RAY = 0.1
-_SCALES = (0.25, 0.5, 2.0, 4.0)
+_COMMON_SCALES = (0.25, 0.5, 2.0, 4.0)
 _MAX_CENTER_ERROR = 0.12  # of half an image side, by which a principal point may be off
 
 
@@ -108,7 +108,7 @@ def _wrong_lens(camera: ObservedCamera) -> Iterator[tuple[str, str]]:
     model = camera.model
     if model is None or not isinstance(model.lens, PolynomialLens) or not all(model.image_size):
         return
-    grid = np.stack(np.meshgrid(*(np.linspace(0, side - 1, _GRID) for side in model.image_size)), axis=-1)
+    grid = np.stack(np.meshgrid(*(np.linspace(0, side - 1, _GRID_POINTS) for side in model.image_size)), axis=-1)
     try:
         missing = float(np.isnan(model.rays(grid)[..., 0]).mean())
     except ValueError:
@@ -137,7 +137,7 @@ def _wrong_scale(camera: ObservedCamera) -> Iterator[tuple[str, str]]:
     half = np.array([model.width, model.height]) / 2.0
     if (np.abs(center / half - 1.0) < 2.0 * _MAX_CENTER_ERROR).any():
         return
-    for scale in _SCALES:
+    for scale in _COMMON_SCALES:
         if (np.abs(center * scale / half - 1.0) < _MAX_CENTER_ERROR).all():
             width, height = (round(side / scale) for side in (model.width, model.height))
             yield (

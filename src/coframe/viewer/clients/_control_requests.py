@@ -24,7 +24,7 @@ _MAX_NAMES = 1000
 
 
 async def _control(client: ClientState, request: client_messages.ControlGraph) -> Controlled:
-    control = _permitted(client)
+    control = _require_control(client)
     try:
         # Not in the executor of the viewer, because a goal may take minutes.
         text, ros_type, fields = await asyncio.to_thread(_execute, control, request)
@@ -34,7 +34,7 @@ async def _control(client: ClientState, request: client_messages.ControlGraph) -
 
 
 async def _drive(client: ClientState, request: client_messages.Drive) -> None:
-    control = _permitted(client)
+    control = _require_control(client)
     try:
         await asyncio.to_thread(control.drive, request.topic, request.ros_type, request.linear, request.angular)
     except ControlError as error:
@@ -51,7 +51,7 @@ def _execute(control: GraphControl, request: client_messages.ControlGraph) -> tu
     return text, request.ros_type, fields
 
 
-def _permitted(client: ClientState) -> GraphControl:
+def _require_control(client: ClientState) -> GraphControl:
     control = client.viewer.control
     if control is None:
         raise BadRequestError("this viewer may not act on the graph", "Start it with `coframe view --control`.")

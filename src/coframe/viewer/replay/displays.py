@@ -38,7 +38,7 @@ __all__ = [
     "ReplayDisplay",
     "ReplayTimes",
     "no_progress",
-    "packed",
+    "pack",
     "record_displays",
 ]
 
@@ -91,7 +91,7 @@ class _TooLargeError(Exception):
         self.share = share
 
 
-def packed(array: NDArray[Any]) -> str:
+def pack(array: NDArray[Any]) -> str:
     """Return an array as base64 text."""
     return base64.b64encode(np.ascontiguousarray(array).tobytes()).decode()
 
@@ -203,11 +203,11 @@ class _DisplayRecorder:
             every=self._every,
             statuses=self._statuses,
             drawings=self._drawings,
-            changes=packed(np.array(self._changes, "<u4")),
-            counts=packed(np.array(self._counts, "<u4")),
-            sequences=packed(np.concatenate([one.sequences for one in listings] or [np.zeros(0, "<u4")])),
-            poses=packed(np.concatenate([one.poses for one in listings] or [np.zeros(0, "<f4")])),
-            stamps=packed(np.concatenate([one.stamps for one in listings] or [np.zeros(0, "<f8")])),
+            changes=pack(np.array(self._changes, "<u4")),
+            counts=pack(np.array(self._counts, "<u4")),
+            sequences=pack(np.concatenate([one.sequences for one in listings] or [np.zeros(0, "<u4")])),
+            poses=pack(np.concatenate([one.poses for one in listings] or [np.zeros(0, "<f4")])),
+            stamps=pack(np.concatenate([one.stamps for one in listings] or [np.zeros(0, "<f8")])),
         )
 
     def _try(self, replay_times: ReplayTimes, room: int) -> None:

@@ -90,7 +90,7 @@ def export_replay(
         span = source.span or scene.span or (now, now)  # static frames are the same at all times
         first, last = max(span[0], first or span[0]), min(span[1], last or span[1])
         frames = max(len(scene.structure.names), 1)
-        rate = rate or _suitable_rate(frames, (last - first) / SECOND)
+        rate = rate or _choose_rate(frames, (last - first) / SECOND)
         shown = _enabled_displays(displays, last)
         look: ReplayRviz = {
             "displays": displays,
@@ -108,7 +108,7 @@ def export_replay(
             messages.close()
 
 
-def _suitable_rate(frames: int, seconds: float) -> float:
+def _choose_rate(frames: int, seconds: float) -> float:
     most = MAX_POSES / (frames * max(seconds, 1.0 / SECOND) + frames)
     return max(min(_DEFAULT_RATE, most), _LOWEST_RATE)
 

@@ -17,7 +17,7 @@ from coframe.viewer.protocol.replay_block import ReplayBlock
 from coframe.viewer.protocol.server_messages import RobotModel, TreeFrame
 from coframe.viewer.replay._nodes import record_nodes
 from coframe.viewer.replay._template import replay_template
-from coframe.viewer.replay.displays import ReplayTimes, no_progress, packed, record_displays
+from coframe.viewer.replay.displays import ReplayTimes, no_progress, pack, record_displays
 from coframe.viewer.robots.meshes import MESH_TYPES, MeshError
 from coframe.viewer.scene.scene import LocalOrigin, Scene
 from coframe.viewer.scene.statistics import frame_rows
@@ -169,9 +169,9 @@ def _block(content: ReplayContent, request: ReplayRequest, progress: Progress) -
                 TreeFrame(name=name, parent=parent, static=static, component=component)
                 for name, parent, static, component in frames
             ],
-            "times": packed((times - request.origin).astype("<f8")),
-            "poses": packed(np.stack([relative_to(origin, one.poses) for one in placed])),
-            "states": packed(np.stack([one.states for one in placed])),
+            "times": pack((times - request.origin).astype("<f8")),
+            "poses": pack(np.stack([relative_to(origin, one.poses) for one in placed])),
+            "states": pack(np.stack([one.states for one in placed])),
             "robots": _robots(content),
             "rviz": request.settings.rviz,
             "displays": record_displays(request.settings.displays, content.messages, replay_times, progress),

@@ -122,18 +122,18 @@ class MeshTable:
         try:
             parts = urlsplit(reference) if "://" in reference else None
         except ValueError:  # for example a host that begins with a bracket
-            raise MeshError(f"{_shown(reference)} is not a valid address") from None
+            raise MeshError(f"{_shorten(reference)} is not a valid address") from None
         if parts is None:
             if folder is None:
-                raise MeshError(f"{_shown(reference)} is neither package:// nor file://")
+                raise MeshError(f"{_shorten(reference)} is neither package:// nor file://")
             return _resolve(folder / reference)
         if parts.scheme == "file":
             if parts.netloc not in {"", "localhost"}:
-                raise MeshError(f"{_shown(reference)} is on another machine")
+                raise MeshError(f"{_shorten(reference)} is on another machine")
             return _resolve(Path(unquote(parts.path)))
         if parts.scheme == "package":
             return _resolve(self._package(parts.netloc) / unquote(parts.path).lstrip("/"))
-        raise MeshError(f"{_shown(reference)} is neither package:// nor file://")
+        raise MeshError(f"{_shorten(reference)} is neither package:// nor file://")
 
     def _package(self, name: str) -> Path:
         with self._lock:
@@ -148,7 +148,7 @@ class MeshTable:
                 self.declare(source_of(folder))
         if folder is None:
             raise MeshError(
-                f"ROS package {_shown(name)} not found. Add the folder that contains it to COFRAME_PACKAGE_PATH."
+                f"ROS package {_shorten(name)} not found. Add the folder that contains it to COFRAME_PACKAGE_PATH."
             )
         return folder
 
@@ -157,7 +157,7 @@ class MeshTable:
             for folder, root in self._roots.items():
                 if file.is_relative_to(folder):
                     return root
-        raise MeshError(f"{_shown(reference)} is outside the served folders. Add its folder to the mesh roots.")
+        raise MeshError(f"{_shorten(reference)} is outside the served folders. Add its folder to the mesh roots.")
 
 
 def _resolve(path: Path) -> Path:
@@ -165,22 +165,22 @@ def _resolve(path: Path) -> Path:
     try:
         return path.resolve()
     except (OSError, RuntimeError, ValueError) as error:  # A loop of links, a NUL, or a name that is too long.
-        raise MeshError(f"{_shown(str(path))} is not a valid path: {reason(error)}") from None
+        raise MeshError(f"{_shorten(str(path))} is not a valid path: {reason(error)}") from None
 
 
 def _check_file(file: Path, reference: str) -> None:
     if file.suffix.lower() not in MESH_TYPES:
-        raise MeshError(f"{_shown(reference)} is not a mesh or texture. Known extensions: {', '.join(MESH_TYPES)}")
+        raise MeshError(f"{_shorten(reference)} is not a mesh or texture. Known extensions: {', '.join(MESH_TYPES)}")
     try:
         check_regular(file)
     except FileNotFoundError:
         is_package = reference.startswith("package://")
         hint = ". Is the right copy of the package in a folder of COFRAME_PACKAGE_PATH?" if is_package else ""
-        raise MeshError(f"file {_shown(reference)} not found{hint}") from None
+        raise MeshError(f"file {_shorten(reference)} not found{hint}") from None
     except OSError as error:
-        raise MeshError(f"{_shown(reference)} cannot be read: {error.strerror}") from None
+        raise MeshError(f"{_shorten(reference)} cannot be read: {error.strerror}") from None
     if (size := file.stat().st_size) > MAX_MESH_BYTES:
-        raise MeshError(f"{_shown(reference)} has {size >> 20} MB; at most {MAX_MESH_BYTES >> 20} MB are served")
+        raise MeshError(f"{_shorten(reference)} has {size >> 20} MB; at most {MAX_MESH_BYTES >> 20} MB are served")
 
 
 def _is_file(path: Path) -> bool:
@@ -190,6 +190,6 @@ def _is_file(path: Path) -> bool:
         return False
 
 
-def _shown(text: str) -> str:
+def _shorten(text: str) -> str:
     shown = repr(text)
     return shown if len(shown) <= 120 else f"{shown[:117]}..."

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from coframe.viewer.protocol.server_messages import IgnoredRvizPart
 from coframe.viewer.rviz._defaults import DISPLAY_DEFAULTS, VIEW_DEFAULTS, differs_from_default
 from coframe.viewer.rviz._tools import TOOL_CLASSES
-from coframe.viewer.rviz._values import OWN_KEYS, TOPIC_KEYS, leaves, plain_class
+from coframe.viewer.rviz._values import OWN_KEYS, TOPIC_KEYS, iterate_leaves, plain_class
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 __all__ = ["ignored_options", "ignored_panels", "ignored_tools", "ignored_view_options"]
 
 # What the page or the server reads without a row of options; the first part of a path decides.
-_READ_ELSEWHERE = frozenset({*OWN_KEYS, *TOPIC_KEYS, "Value", "Namespaces", "Frames", "Frame Timeout"})
+_KEYS_READ_ELSEWHERE = frozenset({*OWN_KEYS, *TOPIC_KEYS, "Value", "Namespaces", "Frames", "Frame Timeout"})
 # How RViz shows its own tree and receives messages, which has no equivalent here. The viewer chooses the QoS itself.
-_WITHOUT_EFFECT = frozenset(
+_KEYS_WITHOUT_EFFECT = frozenset(
     {
         "Tree",
         "Expand Joint Details",
@@ -59,9 +59,9 @@ def ignored_options(
     """
     known = keys | {key.removesuffix("/Value") for key in keys}
     defaults = DISPLAY_DEFAULTS.get(name, {})
-    for key, value in leaves(options):
+    for key, value in iterate_leaves(options):
         first = key.partition("/")[0]
-        if key in known or first in _READ_ELSEWHERE or first in _WITHOUT_EFFECT:
+        if key in known or first in _KEYS_READ_ELSEWHERE or first in _KEYS_WITHOUT_EFFECT:
             continue
         if first == "Links" and not _link_differs(key, value):
             continue
@@ -75,7 +75,7 @@ def ignored_view_options(view: Mapping[str, Any]) -> Iterator[IgnoredRvizPart]:
     known = _VIEW_KEYS_READ.get(name)
     if known is None:
         return  # The whole view is reported.
-    for key, value in leaves(view):
+    for key, value in iterate_leaves(view):
         first = key.partition("/")[0]
         if first in known or first in _VIEW_KEYS_OF_ALL or key == "Enable Stereo Rendering/Value":
             continue

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from coframe.viewer.rviz._values import changes, plain, plain_class, set_topic, topic_of, update
+from coframe.viewer.rviz._values import changed_values, to_json, plain_class, set_topic, topic_of, update
 from coframe.viewer.sources.topic_names import resolved_topic
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ _OWN_KEYS = ("Class", "Topic")
 
 def read_tools(manager: dict[str, Any]) -> list[RvizTool]:
     """Return the tools that publish."""
-    return [_described(tool) for tool in _tools(manager)]
+    return [_describe(tool) for tool in _tools(manager)]
 
 
 def merge_tools(manager: dict[str, Any], tools: Sequence[RvizTool], package: str) -> None:
@@ -36,18 +36,20 @@ def merge_tools(manager: dict[str, Any], tools: Sequence[RvizTool], package: str
             tool = {"Class": f"{package}/{shown['class']}"}
             known = manager.get("Tools")
             manager["Tools"] = [*(known if isinstance(known, list) else []), tool]
-        before = _described(tool)
+        before = _describe(tool)
         if shown["topic"] and shown["topic"] != before["topic"]:
             set_topic(tool, shown["topic"], package)
-        update(tool, changes(before["options"], {k: v for k, v in shown["options"].items() if k not in _OWN_KEYS}))
+        update(
+            tool, changed_values(before["options"], {k: v for k, v in shown["options"].items() if k not in _OWN_KEYS})
+        )
 
 
-def _described(tool: dict[str, Any]) -> RvizTool:
+def _describe(tool: dict[str, Any]) -> RvizTool:
     topic = topic_of(tool)
     return {
         "class": plain_class(tool.get("Class")),
         "topic": None if topic is None else resolved_topic(topic),
-        "options": {str(key): plain(value) for key, value in tool.items() if key not in _OWN_KEYS},
+        "options": {str(key): to_json(value) for key, value in tool.items() if key not in _OWN_KEYS},
     }
 
 

@@ -13,10 +13,10 @@ if TYPE_CHECKING:
 __all__ = [
     "OWN_KEYS",
     "TOPIC_KEYS",
-    "changes",
+    "changed_values",
     "is_number",
-    "leaves",
-    "plain",
+    "iterate_leaves",
+    "to_json",
     "plain_class",
     "set_topic",
     "topic_of",
@@ -75,33 +75,33 @@ def is_number(value: Any) -> TypeGuard[float]:
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
 
 
-def plain(value: Any) -> Any:
+def to_json(value: Any) -> Any:
     """Return a value that JSON can represent."""
     if isinstance(value, dict):
-        return {str(key): plain(part) for key, part in value.items()}
+        return {str(key): to_json(part) for key, part in value.items()}
     if isinstance(value, list | tuple | set):
-        return [plain(part) for part in value]
+        return [to_json(part) for part in value]
     if value is None or isinstance(value, bool | str | int) or is_number(value):
         return value
     return str(value)
 
 
-def leaves(values: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
+def iterate_leaves(values: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
     """Yield the paths and values of all options, such as "Covariance/Position/Alpha"."""
     for key, value in values.items():
         if isinstance(value, dict):
-            yield from leaves(value, f"{prefix}{key}/")
+            yield from iterate_leaves(value, f"{prefix}{key}/")
         else:
             yield f"{prefix}{key}", value
 
 
-def changes(before: Mapping[str, Any], after: Any) -> dict[str, Any]:
+def changed_values(before: Mapping[str, Any], after: Any) -> dict[str, Any]:
     """Return the options in `after` that differ from those in `before`, nested like them."""
     found: dict[str, Any] = {}
     for key, value in after.items() if isinstance(after, dict) else ():
         earlier = before.get(key)
         if isinstance(value, dict) and isinstance(earlier, dict):
-            if inner := changes(earlier, value):
+            if inner := changed_values(earlier, value):
                 found[key] = inner
         elif key not in before or value != earlier or isinstance(value, bool) != isinstance(earlier, bool):
             found[key] = value

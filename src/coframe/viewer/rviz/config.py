@@ -23,9 +23,9 @@ from coframe.viewer.rviz._reading import MAX_FILE_BYTES, read_yaml, yaml_module
 from coframe.viewer.rviz._tools import merge_tools, read_tools
 from coframe.viewer.rviz._values import (
     OWN_KEYS,
-    changes,
+    changed_values,
     is_number,
-    plain,
+    to_json,
     plain_class,
     set_topic,
     topic_of,
@@ -163,12 +163,12 @@ class RvizConfig:
         ignored: list[IgnoredRvizPart] = []
         for found in _displays(self._manager):
             if found.plain_class in DISPLAYS:
-                described = _described(found)
+                described = _describe(found)
                 known.append(described)
                 keys = DISPLAYS[found.plain_class].option_keys
                 ignored += ignored_options(found.path, found.plain_class, keys, described["options"])
             elif found.plain_class == "Group":
-                groups.append(_described_group(found))
+                groups.append(_describe_group(found))
             else:
                 full_class = str(found.display.get("Class") or "")
                 unknown.append({"path": found.path, "class": full_class, "name": found.name})
@@ -187,7 +187,7 @@ class RvizConfig:
                 "displays": known,
                 "groups": groups,
                 "global": global_options,
-                "view": _described_view(view) if view else None,
+                "view": _describe_view(view) if view else None,
                 "saved_views": self._saved_views(),
                 "tools": read_tools(self._manager),
                 "unknown": unknown,
@@ -258,7 +258,7 @@ class RvizConfig:
         views = [view for view in _sequence(_mapping(self._manager, "Views"), "Saved") if isinstance(view, dict)]
         described = [(str(view.get("Name") or f"View {number}"), view) for number, view in enumerate(views, 1)]
         return [
-            SavedRvizView(name=name, view=_described_view(view))
+            SavedRvizView(name=name, view=_describe_view(view))
             for name, view in described
             if plain_class(view.get("Class")) in VIEW_CLASSES
         ]
@@ -328,13 +328,13 @@ class RvizConfig:
         if not view:
             return
         current = copy.deepcopy(self._view)
-        before = _described_view(current)["options"]
+        before = _describe_view(current)["options"]
         name = view.get("class")
         if isinstance(name, str) and plain_class(current.get("Class")) != name:
             current["Class"] = f"{self._package}/{name}"
             if "Value" in current:
                 current["Value"] = f"{name} ({self._package})"
-        update(current, changes(before, view.get("options")))
+        update(current, changed_values(before, view.get("options")))
         if current != self._view:
             views = dict(_mapping(self._manager, "Views"))
             views["Current"] = current
@@ -353,14 +353,14 @@ def _displays(parent: dict[str, Any], path: str = "", source: str = "", *, enabl
                 yield from _displays(display, f"{found.path}/", own, enabled=enabled and found.is_checked)
 
 
-def _described(found: _Found) -> RvizDisplay:
+def _describe(found: _Found) -> RvizDisplay:
     display = found.display
-    options = {str(key): plain(value) for key, value in display.items() if key not in OWN_KEYS}
+    options = {str(key): to_json(value) for key, value in display.items() if key not in OWN_KEYS}
     return {
         "class": found.plain_class,
         "name": found.name,
         "enabled": found.is_checked and found.in_enabled_groups,
-        "topic": _resolved(topic_of(display)),
+        "topic": _resolve(topic_of(display)),
         "options": DISPLAYS[found.plain_class].with_usual_keys(options),
         "checked": found.is_checked,
         "source": found.source,
@@ -368,12 +368,12 @@ def _described(found: _Found) -> RvizDisplay:
     }
 
 
-def _described_group(found: _Found) -> RvizGroup:
+def _describe_group(found: _Found) -> RvizGroup:
     return RvizGroup(source=found.source, group=found.group, name=found.name, enabled=found.is_checked)
 
 
-def _described_view(view: Mapping[str, Any]) -> RvizView:
-    options = plain({key: value for key, value in view.items() if key != "Class"})
+def _describe_view(view: Mapping[str, Any]) -> RvizView:
+    options = to_json({key: value for key, value in view.items() if key != "Class"})
     return {"class": plain_class(view.get("Class")), "options": options}
 
 
@@ -420,7 +420,7 @@ def _new_display(shown: RvizDisplay, package: str) -> dict[str, Any]:
 
 def _merge_display(found: _Found, shown: RvizDisplay, package: str) -> None:
     """Write what the page has changed of a display."""
-    before, display = _described(found), found.display
+    before, display = _describe(found), found.display
     checked = shown.get("checked", before["checked"])
     if checked == before["checked"] and shown["enabled"] not in {before["enabled"], before["checked"]}:
         checked = shown["enabled"]
@@ -429,7 +429,7 @@ def _merge_display(found: _Found, shown: RvizDisplay, package: str) -> None:
     if shown["name"] and shown["name"] != before["name"]:
         display["Name"] = shown["name"]
     row = DISPLAYS[found.plain_class]
-    update(display, changes(before["options"], row.with_usual_keys(shown["options"])))
+    update(display, changed_values(before["options"], row.with_usual_keys(shown["options"])))
     if shown["topic"] and shown["topic"] != before["topic"]:
         set_topic(display, shown["topic"], package)
 
@@ -440,7 +440,7 @@ def _set_enabled(display: dict[str, Any], *, enabled: bool) -> None:
         display["Value"] = enabled
 
 
-def _resolved(topic: str | None) -> str | None:
+def _resolve(topic: str | None) -> str | None:
     return None if topic is None else resolved_topic(topic)
 
 

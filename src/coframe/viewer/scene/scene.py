@@ -88,7 +88,7 @@ class Scene:
         if changes == self._changes:
             return
         self._changes = changes
-        self.infos = _known(self.buffer.frames())
+        self.infos = _connected_infos(self.buffer.frames())
         self._update_structure()
         dynamic = [info for info in self.infos if info.samples and not info.static]
         self.span = (min(info.oldest for info in dynamic), max(info.newest for info in dynamic)) if dynamic else None
@@ -178,7 +178,7 @@ class Scene:
             self._tables.clear()
 
 
-def _known(infos: list[FrameInfo]) -> list[FrameInfo]:
+def _connected_infos(infos: list[FrameInfo]) -> list[FrameInfo]:
     """Return the frames that have samples or are the parent of one that has."""
     if all(info.samples or info.static for info in infos):
         return infos

@@ -42,10 +42,12 @@ _KINDS = {"b": "booleans", "O": "objects", "S": "bytes", "U": "text", "c": "comp
 def parse_name(value: Any) -> str:
     """Return the name of a node without slashes at its ends: the path of the node."""
     if not isinstance(value, str):
-        raise SceneError(f"name: expected a string such as 'camera/cloud', not {_shown(value)}")
+        raise SceneError(f"name: expected a string such as 'camera/cloud', not {_quote_shortened(value)}")
     name = value.strip("/")
     if not all(part.strip() for part in name.split("/")):
-        raise SceneError(f"name: {_shown(value)} has an empty part", hint="Use a name such as 'camera/cloud'.")
+        raise SceneError(
+            f"name: {_quote_shortened(value)} has an empty part", hint="Use a name such as 'camera/cloud'."
+        )
     if len(name) > MAX_NAME:
         raise SceneError(f"name: {len(name)} characters exceed the maximum of {MAX_NAME}")
     return name
@@ -54,7 +56,7 @@ def parse_name(value: Any) -> str:
 def parse_text(value: Any, argument: str, most: int = MAX_TEXT) -> str:
     """Return a string of limited length."""
     if not isinstance(value, str):
-        raise SceneError(f"{argument}: expected a string, not {_shown(value)}")
+        raise SceneError(f"{argument}: expected a string, not {_quote_shortened(value)}")
     if len(value) > most:
         raise SceneError(f"{argument}: {len(value)} characters exceed the maximum of {most}")
     return value.encode(errors="replace").decode()  # Half of a surrogate pair is not a character.
@@ -63,18 +65,18 @@ def parse_text(value: Any, argument: str, most: int = MAX_TEXT) -> str:
 def parse_flag(value: Any, argument: str) -> bool:
     """Return a boolean."""
     if not isinstance(value, bool | np.bool_):
-        raise SceneError(f"{argument}: expected True or False, not {_shown(value)}")
+        raise SceneError(f"{argument}: expected True or False, not {_quote_shortened(value)}")
     return bool(value)
 
 
 def number_of(value: Any, argument: str, low: float = -math.inf, high: float = math.inf) -> float:
     """Return a finite number between two limits."""
     if isinstance(value, bool | np.bool_ | str | bytes):
-        raise SceneError(f"{argument}: expected a number, not {_shown(value)}")
+        raise SceneError(f"{argument}: expected a number, not {_quote_shortened(value)}")
     try:
         number = float(value)
     except (TypeError, ValueError, OverflowError):
-        raise SceneError(f"{argument}: expected a number, not {_shown(value)}") from None
+        raise SceneError(f"{argument}: expected a number, not {_quote_shortened(value)}") from None
     if not math.isfinite(number):
         raise SceneError(f"{argument}: expected a finite number, not {number}")
     if not low <= number <= high:
@@ -110,7 +112,7 @@ def pose_of(value: Any, argument: str = "pose") -> Pose:
     """Return the numbers x, y, z, qx, qy, qz, qw of a single transform."""
     if not isinstance(value, Transform):
         raise SceneError(
-            f"{argument}: expected a coframe.Transform, not {_shown(value)}",
+            f"{argument}: expected a coframe.Transform, not {_quote_shortened(value)}",
             hint="Pass position=(x, y, z) and quaternion=(x, y, z, w), or coframe.Transform(position, quaternion).",
         )
     if value.shape:
@@ -158,7 +160,7 @@ def _numbers(value: Any, argument: str) -> NDArray[Any]:
     try:
         numbers = np.asarray(value)
     except (TypeError, ValueError):  # rows of different lengths
-        raise SceneError(f"{argument}: expected an array of numbers, not {_shown(value)}") from None
+        raise SceneError(f"{argument}: expected an array of numbers, not {_quote_shortened(value)}") from None
     if numbers.dtype.kind not in "iuf":
         kind = _KINDS.get(numbers.dtype.kind, str(numbers.dtype))
         raise SceneError(f"{argument}: expected an array of numbers, not of {kind}")
@@ -176,7 +178,7 @@ def _shape(shape: tuple[int | None, ...]) -> str:
     return f"({sizes[0]},)" if len(sizes) == 1 else f"({', '.join(sizes)})"
 
 
-def _shown(value: Any) -> str:
+def _quote_shortened(value: Any) -> str:
     try:
         text = repr(value)
     except Exception:  # noqa: BLE001 - the value may be anything

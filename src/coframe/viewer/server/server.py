@@ -41,7 +41,7 @@ _logger = logging.getLogger("coframe.viewer")
 
 # Browsers store the layout of a page by its address, so the port is kept if possible.
 DEFAULT_PORT = 7676
-_TOKEN = "token"  # noqa: S105 - its name in addresses
+_TOKEN_PARAMETER = "token"  # noqa: S105 - its name in addresses
 _END_TIMEOUT = 5.0
 _REPEAT_AFTER = 60.0  # seconds between warnings about connections that cannot be accepted
 # Seconds between checks whether all clients have disconnected.
@@ -102,7 +102,7 @@ class ViewerServer:
 
     @property
     def _query(self) -> str:
-        return f"?{_TOKEN}={self._access.token}" if self._access.token else ""
+        return f"?{_TOKEN_PARAMETER}={self._access.token}" if self._access.token else ""
 
     def call(self, callback: Callable[..., object], *args: Any) -> None:
         """Call a function in the server's thread soon. Do nothing if the server is closed."""
@@ -212,10 +212,10 @@ class ViewerServer:
     def _token_reply(self, request: Request, parts: SplitResult) -> Response | None:
         """Return the response to a request without the token or with the token in its address, or None for others."""
         query = parse_qsl(parts.query, keep_blank_values=True)
-        if any(key == _TOKEN and self._access.is_token(value) for key, value in query):
+        if any(key == _TOKEN_PARAMETER and self._access.is_token(value) for key, value in query):
             if parts.path == "/ws":  # programs other than browsers
                 return None
-            rest = urlencode([(key, value) for key, value in query if key != _TOKEN])
+            rest = urlencode([(key, value) for key, value in query if key != _TOKEN_PARAMETER])
             # A path that begins with two slashes, or a slash and a backslash, would lead to another server.
             return self._access.redirection("/" + parts.path.lstrip("/\\") + (f"?{rest}" if rest else ""))
         if self._access.has_cookie(request.headers.get_all("Cookie")):

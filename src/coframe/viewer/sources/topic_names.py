@@ -10,9 +10,9 @@ from coframe.errors import ViewerError
 
 __all__ = ["VIEWER_NODE", "NodeName", "resolve_topic", "resolved_topic"]
 
-_PART = r"[A-Za-z_][A-Za-z0-9_]*"
-_FULL_NAME = re.compile(rf"(/{_PART})+", re.ASCII)
-_SUBSTITUTION = re.compile(r"\{([^{}]*)\}")
+_PART_PATTERN = r"[A-Za-z_][A-Za-z0-9_]*"
+_FULL_NAME_PATTERN = re.compile(rf"(/{_PART_PATTERN})+", re.ASCII)
+_SUBSTITUTION_PATTERN = re.compile(r"\{([^{}]*)\}")
 _MAX_SHOWN = 80  # characters of a name in an error message
 
 
@@ -49,12 +49,12 @@ def resolve_topic(name: str, node: NodeName = VIEWER_NODE) -> str:
     """
     namespace = node.namespace.rstrip("/")
     values = {"ns": namespace, "namespace": namespace, "node": node.name}
-    full = _SUBSTITUTION.sub(lambda found: values.get(found[1], found[0]), name)
+    full = _SUBSTITUTION_PATTERN.sub(lambda found: values.get(found[1], found[0]), name)
     if full == "~" or full.startswith("~/"):
         full = f"{namespace}/{node.name}{full[1:]}"
     elif not full.startswith("/"):
         full = f"{namespace}/{full}"
-    if not _FULL_NAME.fullmatch(full):
+    if not _FULL_NAME_PATTERN.fullmatch(full):
         shown = name if len(name) <= _MAX_SHOWN else f"{name[:_MAX_SHOWN]}…"
         raise ViewerError(
             f"{shown!r} is not a valid topic name",

@@ -72,12 +72,12 @@ class VideoStream:
         if sum(len(packet.data) for packet in packets) > MAX_STREAM_BYTES:
             raise CannotDrawError(f"the packets since the last key frame have more than {MAX_STREAM_BYTES} bytes")
         stamp = stamp_ns(newest.header.stamp)
-        content = np.frombuffer(_joined(packets, continues=continues), np.uint8)
+        content = np.frombuffer(_encode_packets(packets, continues=continues), np.uint8)
         data = encode_image(ImageFormat.VIDEO, 0, 0, content, float(stamp - self._options.origin))
         return Drawing(newest.header.frame_id, stamp, data, placed=False)
 
 
-def _joined(packets: list[_Packet], *, continues: bool) -> bytes:
+def _encode_packets(packets: list[_Packet], *, continues: bool) -> bytes:
     """Return the packets for the page: whether they continue, the codec, and each with its kind and size."""
     codec = next((packet.codec for packet in packets if packet.codec), "")
     parts = [struct.pack("<I32s", continues, codec.encode())]

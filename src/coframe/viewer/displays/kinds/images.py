@@ -54,14 +54,14 @@ def _draw_decoded(message: Any, decode: Callable[[Any], Pixels], options: Option
     kind = ImageFormat.RGB if pixels.ndim == 3 else _FORMATS[pixels.dtype.name]
     if every > 1:
         # Depths are not averaged, because there is nothing at the average of two depths.
-        pixels = _averaged(pixels, every) if pixels.dtype == np.uint8 else pixels[::every, ::every]
+        pixels = _average(pixels, every) if pixels.dtype == np.uint8 else pixels[::every, ::every]
     height, width = pixels.shape[:2]
     stamp = stamp_ns(message.header.stamp)
     data = encode_image(kind, width, height, pixels, float(stamp - options.origin), every)
     return Drawing(message.header.frame_id, stamp, data, placed=False)
 
 
-def _averaged(pixels: Pixels, every: int) -> Pixels:
+def _average(pixels: Pixels, every: int) -> Pixels:
     """Return the averages of squares of pixels, so that thin lines do not vanish."""
     height, width = (length // every * every for length in pixels.shape[:2])
     if not height or not width:

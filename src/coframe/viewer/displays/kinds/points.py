@@ -120,17 +120,17 @@ def cloud_drawing(
     valid = np.isfinite(points).all(axis=1)
     dense = bool(valid.all())
 
-    def kept(values: NDArray[Any]) -> NDArray[Any]:
+    def keep(values: NDArray[Any]) -> NDArray[Any]:
         return values if dense else values[valid]
 
-    points = kept(points)
+    points = keep(points)
     colors = None
     scalars = None
     packed = next((name for name in ("rgb", "rgba") if name in names), None)
     if packed is not None and options.color_by in {None, "rgb"}:
-        colors = kept(_colors(channel(packed), alpha=packed == "rgba"))
+        colors = keep(_colors(channel(packed), alpha=packed == "rgba"))
     elif options.color_by == "rgbf" and {"r", "g", "b"} <= set(names):
-        parts = np.stack([kept(channel(name)).astype(np.float32) for name in "rgb"], axis=1)
+        parts = np.stack([keep(channel(name)).astype(np.float32) for name in "rgb"], axis=1)
         colors = np.full((len(points), 4), 255, np.uint8)
         colors[:, :3] = np.clip(np.nan_to_num(parts), 0.0, 1.0) * 255.0 + 0.5
     else:
@@ -138,7 +138,7 @@ def cloud_drawing(
         name = _channel_name(names, options) if options.color_by in {None, "intensity"} else None
         if name is not None:
             with np.errstate(over="ignore"):
-                intensities = kept(channel(name)).astype(np.float32)
+                intensities = keep(channel(name)).astype(np.float32)
         scalars = _scalars(points + np.array(offset, np.float32), options, intensities)
     data = encode_cloud(float(stamp - options.origin), points, scalars, colors, step)
     return Drawing(header.frame_id, stamp, data, offset=offset)
