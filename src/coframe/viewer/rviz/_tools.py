@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from coframe.viewer.rviz._values import changed_values, to_json, plain_class, set_topic, topic_of, update
+from coframe.viewer.rviz._values import changed_values, plain_class, set_topic, to_json, topic_of, update
 from coframe.viewer.sources.topic_names import resolved_topic
 
 if TYPE_CHECKING:

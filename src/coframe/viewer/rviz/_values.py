@@ -16,9 +16,9 @@ __all__ = [
     "changed_values",
     "is_number",
     "iterate_leaves",
-    "to_json",
     "plain_class",
     "set_topic",
+    "to_json",
     "topic_of",
     "update",
 ]

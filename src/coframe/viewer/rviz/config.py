@@ -25,9 +25,9 @@ from coframe.viewer.rviz._values import (
     OWN_KEYS,
     changed_values,
     is_number,
-    to_json,
     plain_class,
     set_topic,
+    to_json,
     topic_of,
     update,
 )
