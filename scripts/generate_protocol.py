@@ -57,7 +57,7 @@ TABLE_BEGIN = f"<!-- {DISPLAYS_NOTICE} -->\n"
 MODULES = (common, server_messages, client_messages, binary_messages, replay_block)
 SERVER, CLIENT = get_args(server_messages.ServerMessage), get_args(client_messages.ClientMessage)
 SHAPES = tuple(dict.fromkeys(shape for row in DISPLAYS.values() for shape in row.shapes))
-READERS = {"I": "reader.u32()", "f": "reader.f32()", "d": "reader.f64()"}
+READERS = {"I": "reader.readUint32()", "f": "reader.readFloat32()", "d": "reader.readFloat64()"}
 
 PREAMBLE = """\
 export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
@@ -65,10 +65,10 @@ export type JsonObject = { [key: string]: Json };
 
 /** Reads the fields of a binary message, one after another. */
 export interface FieldReader {
-  u32(): number;
-  f32(): number;
-  f64(): number;
-  floats(count: number): Float32Array;
+  readUint32(): number;
+  readFloat32(): number;
+  readFloat64(): number;
+  readFloats(count: number): Float32Array;
 }
 
 /**
@@ -362,7 +362,7 @@ def _read(field: BinaryField) -> str:
     if field.length is None:
         return READERS[field.letter]
     return (
-        f"reader.floats({field.length})"
+        f"reader.readFloats({field.length})"
         if _is_array(field)
         else f"[{', '.join([READERS[field.letter]] * field.length)}]"
     )

@@ -164,7 +164,7 @@ export function showPage(source: MessageSource): void {
   }
 
   /** Says that everything has started again. Earlier times no longer exist, so the newest data is shown. */
-  function restarted(reason: string): void {
+  function showRestart(reason: string): void {
     const recorded = model.hello?.mode === "recording";
     if (!recorded) model.setClock({ live: true, playing: false, loop: null });
     toast(`${reason}.`, "All displays start again without the data received so far.", "info");
@@ -193,7 +193,7 @@ export function showPage(source: MessageSource): void {
         model.marks.clear();
         model.emit("hello", message);
         model.emit("topics", message.topics);
-        if (message.restart !== null) restarted(message.restart);
+        if (message.restart !== null) showRestart(message.restart);
         break;
       case "pulse":
         model.pulse = message;
@@ -270,14 +270,14 @@ export function showPage(source: MessageSource): void {
     }
     model.setFrameUpdate(message);
     // A hidden tab draws nothing. It requests one update per second, so that the server keeps the connection.
-    if (document.hidden) setTimeout(() => document.hidden && ready(message.time), HIDDEN_PING_MS);
+    if (document.hidden) setTimeout(() => document.hidden && showReady(message.time), HIDDEN_PING_MS);
   }
 
-  function ready(time: number): void {
+  function showReady(time: number): void {
     source.send({ type: "ready", drawn: Number.isFinite(time) ? time : null });
   }
 
-  view.onBeforeDraw((update) => ready(update.time));
+  view.onBeforeDraw((update) => showReady(update.time));
 
   source.start((event, value) => {
     if (event === "text") receive(value as ServerMessage);

@@ -59,7 +59,7 @@ export function exposeProbe(model: Model, view: View, displays: Displays, nodes:
     /** Whether the playhead stands still and its frame update is drawn. */
     get settled() {
       const { live, playing } = model.clock;
-      return !live && !playing && !model.seeking && view.shown === model.frameUpdate;
+      return !live && !playing && !model.isSeeking && view.shown === model.frameUpdate;
     },
     /** The camera, expressed in the fixed frame, in meters. */
     get camera() {

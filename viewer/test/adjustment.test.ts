@@ -2,8 +2,8 @@
 import { describe, expect, it } from "vitest";
 import { Forest } from "../src/model/model";
 import type { FrameUpdate } from "../src/protocol/messages";
-import { adjusted, poseAt, poseInParent } from "../src/scene/adjustment";
-import { compose, inverse, normalize, relative, type Pose } from "../src/util/math";
+import { applyAdjustment, poseAt, poseInParent } from "../src/scene/adjustment";
+import { compose, inverse, normalize, relativePose, type Pose } from "../src/util/math";
 import { staticCommands } from "../src/util/static_commands";
 
 const pose = (x: number, y: number, z: number, ...q: [number, number, number, number]): Pose => ({
@@ -35,7 +35,7 @@ function inMap(i: number, local: Pose[]): Pose {
 
 /** The poses of all frames in a fixed frame, by forward kinematics. */
 function expected(fixed: number, local: Pose[]): Pose[] {
-  return NAMES.map((_, i) => relative(inMap(fixed, local), inMap(i, local)));
+  return NAMES.map((_, i) => relativePose(inMap(fixed, local), inMap(i, local)));
 }
 
 function row({ position, quaternion }: Pose): number[] {
@@ -73,7 +73,7 @@ describe("an adjusted static transform", () => {
   it.each(NAMES.map((name, i) => [name, i] as const))("moves what it should in %s", (name, fixed) => {
     const wanted = expected(fixed, changed);
     const entries = expected(fixed, LOCAL).map((own, i) => [i, own] as [number, Pose]);
-    const result = adjusted(update(fixed, entries), forest, name, { frame: 2, pose: CHANGED });
+    const result = applyAdjustment(update(fixed, entries), forest, name, { frame: 2, pose: CHANGED });
     wanted.forEach((frame, i) => {
       expectPose(poseAt(result.poses, i), frame);
       expectPose(poseAt((result.displays[i] as { pose: Float32Array }).pose, 0), frame);
@@ -83,7 +83,7 @@ describe("an adjusted static transform", () => {
   it("moves messages by the pose of their own stamp", () => {
     const earlier = LOCAL.map((local, i) => (i === 1 ? pose(-3, 1, 0, 0, 0, 0.7, 0.7) : local));
     const message = expected(0, earlier)[3] as Pose;
-    const result = adjusted(update(0, [[3, message]]), forest, "map", { frame: 2, pose: CHANGED });
+    const result = applyAdjustment(update(0, [[3, message]]), forest, "map", { frame: 2, pose: CHANGED });
     const wanted = expected(
       0,
       earlier.map((local, i) => (i === 2 ? CHANGED : local)),
@@ -93,7 +93,7 @@ describe("an adjusted static transform", () => {
 
   it("leaves messages of unknown frames and the original update unchanged", () => {
     const before = update(0, [[-1, LOCAL[1] as Pose]]);
-    const result = adjusted(before, forest, "map", { frame: 2, pose: CHANGED });
+    const result = applyAdjustment(before, forest, "map", { frame: 2, pose: CHANGED });
     expect(result.displays[0]).toBe(before.displays[0]);
     expectPose(poseAt(before.poses, 2), expected(0, LOCAL)[2] as Pose);
     expectPose(poseInParent(before, forest, 2) as Pose, LOCAL[2] as Pose);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { nested, parseValue, shownValue } from "../src/control/values";
+import { nestValues, parseValue, formatValue } from "../src/control/values";
 
 describe("the fields of a form", () => {
   it("are nested by their paths", () => {
@@ -9,7 +9,7 @@ describe("the fields of a form", () => {
       ["linear.y", 1],
       ["frame", "map"],
     ]);
-    expect(nested(values)).toEqual({ linear: { x: 0.5, y: 1 }, frame: "map" });
+    expect(nestValues(values)).toEqual({ linear: { x: 0.5, y: 1 }, frame: "map" });
   });
 
   it("are strings without quotes and everything else as JSON", () => {
@@ -17,8 +17,8 @@ describe("the fields of a form", () => {
     expect(parseValue("double", "1e3")).toBe(1000);
     expect(parseValue("boolean", "true")).toBe(true);
     expect(parseValue("sequence<double>", "[1, 2]")).toEqual([1, 2]);
-    expect(shownValue({ path: "data", type: "string", value: '"a b"' })).toBe("a b");
-    expect(shownValue({ path: "data", type: "double", value: "0.0" })).toBe("0.0");
+    expect(formatValue({ path: "data", type: "string", value: '"a b"' })).toBe("a b");
+    expect(formatValue({ path: "data", type: "double", value: "0.0" })).toBe("0.0");
   });
 
   it.each([

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import * as THREE from "three";
 import { describe, expect, it } from "vitest";
-import { dragged, type DragStart, type DraggedPose } from "../src/displays/control_drag";
+import { dragPose, type DragStart, type DraggedPose } from "../src/displays/control_drag";
 
 const V = (x: number, y: number, z: number): THREE.Vector3 => new THREE.Vector3(x, y, z);
 /** A camera above the origin that looks down, with y of the scene up on the screen. */
@@ -14,7 +14,7 @@ function start(mode: number, axis: THREE.Vector3, grabbed: THREE.Vector3): DragS
 /** Drags to a point that the camera sees from above; pixels are hundredths of a meter. */
 function to(from: DragStart, x: number, y: number, shift = false): DraggedPose | null {
   const moved = [(x - from.grabbed.x) * 100, (from.grabbed.y - y) * 100] as const;
-  return dragged(from, { ray: new THREE.Ray(V(x, y, 10), V(0, 0, -1)), moved, shift });
+  return dragPose(from, { ray: new THREE.Ray(V(x, y, 10), V(0, 0, -1)), moved, shift });
 }
 
 function expectPose(pose: DraggedPose | null, position: number[], angle: number, axis = V(0, 0, 1)): void {

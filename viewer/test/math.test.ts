@@ -12,7 +12,7 @@ import {
   multiply,
   normalize,
   principalAxes,
-  relative,
+  relativePose,
   rotate,
   rpyDegrees,
   type Pose,
@@ -67,7 +67,7 @@ describe("poses agree with three.js", () => {
       const [a, b] = [somePose(), somePose()];
       close(matrix(compose(a, b)), three(a).multiply(three(b)).transpose().elements);
       close(matrix(inverse(a)), three(a).invert().transpose().elements);
-      close(matrix(relative(a, b)), three(a).invert().multiply(three(b)).transpose().elements);
+      close(matrix(relativePose(a, b)), three(a).invert().multiply(three(b)).transpose().elements);
     }
   });
 
@@ -125,7 +125,7 @@ describe("poses agree with three.js", () => {
       found.position.forEach((value, k) =>
         expect(Math.abs(value - (expected.position[k] as number))).toBeLessThan(1e-12),
       );
-      const { quaternion } = relative(expected, found);
+      const { quaternion } = relativePose(expected, found);
       for (const value of quaternion.slice(0, 3)) expect(Math.abs(value)).toBeLessThan(1e-12);
     }
     expect(INTERPOLATED.length).toBeGreaterThan(50);

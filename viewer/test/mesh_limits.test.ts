@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import { binaryTriangles, gltfProblem, objProblem, stlCoordinates, tgaProblem } from "../src/scene/mesh_limits";
-import { quoted } from "../src/util/static_commands";
+import { quote } from "../src/util/static_commands";
 
 function stl(size: number, triangles: number, start = ""): ArrayBuffer {
   const bytes = new Uint8Array(size);
@@ -73,8 +73,8 @@ describe("glTF", () => {
 
 describe("a name in a shell command", () => {
   it("contains no control characters", () => {
-    expect(quoted("base_link")).toBe("base_link");
-    expect(quoted("it's")).toBe(`'it'\\''s'`);
-    expect(quoted("a\x1b[201~\x15'b\\")).toBe(`$'a\\u001b[201~\\u0015\\'b\\\\'`);
+    expect(quote("base_link")).toBe("base_link");
+    expect(quote("it's")).toBe(`'it'\\''s'`);
+    expect(quote("a\x1b[201~\x15'b\\")).toBe(`$'a\\u001b[201~\\u0015\\'b\\\\'`);
   });
 });

@@ -63,10 +63,10 @@ describe("the playhead", () => {
     expect(sent.map((message) => message.type === "time" && message.mode === "at" && message.at)).toEqual([
       11e9, 12e9, 13e9,
     ]);
-    expect([model.playhead, model.seeking]).toEqual([13e9, true]);
+    expect([model.playhead, model.isSeeking]).toEqual([13e9, true]);
     model.setFrameUpdate(update(13e9));
     model.setFrameUpdate(update(14e9));
-    expect([model.playhead, model.seeking]).toEqual([14e9, false]);
+    expect([model.playhead, model.isSeeking]).toEqual([14e9, false]);
   });
 
   it("is the time of the next message after a step", () => {
@@ -116,9 +116,9 @@ describe("display options", () => {
 
 describe("formatted numbers", () => {
   it("have no negative zero, and a minus sign", () => {
-    expect(format.fixed(-0.00001, 2)).toBe("0.00");
-    expect(format.fixed(-1.5, 1)).toBe("−1.5");
-    expect(format.fixed(NaN, 2)).toBe("–");
+    expect(format.formatFixed(-0.00001, 2)).toBe("0.00");
+    expect(format.formatFixed(-1.5, 1)).toBe("−1.5");
+    expect(format.formatFixed(NaN, 2)).toBe("–");
   });
 
   it("are short in columns", () => {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { lastBefore, passes } from "../src/log/filter";
+import { lastBefore, matchesFilter } from "../src/log/filter";
 import { visibleRows } from "../src/message_inspector/rows";
 import { arrange, chosenLinks } from "../src/node_graph/layout";
 import type { InspectedField, LogEntry, NodeGraph } from "../src/protocol/messages";
@@ -26,13 +26,13 @@ describe("the log", () => {
 
   it("is filtered by level, node and text", () => {
     const all = { level: "debug", node: "", text: "" } as const;
-    expect(passes(entry({}), all)).toBe(true);
-    expect(passes(entry({}), { ...all, level: "warning" })).toBe(false);
-    expect(passes(entry({ level: "fatal" }), { ...all, level: "warning" })).toBe(true);
-    expect(passes(entry({}), { ...all, node: "b" })).toBe(false);
-    expect(passes(entry({}), { ...all, text: "hell" })).toBe(true);
-    expect(passes(entry({}), { ...all, text: "X.PY" })).toBe(true);
-    expect(passes(entry({}), { ...all, text: "other" })).toBe(false);
+    expect(matchesFilter(entry({}), all)).toBe(true);
+    expect(matchesFilter(entry({}), { ...all, level: "warning" })).toBe(false);
+    expect(matchesFilter(entry({ level: "fatal" }), { ...all, level: "warning" })).toBe(true);
+    expect(matchesFilter(entry({}), { ...all, node: "b" })).toBe(false);
+    expect(matchesFilter(entry({}), { ...all, text: "hell" })).toBe(true);
+    expect(matchesFilter(entry({}), { ...all, text: "X.PY" })).toBe(true);
+    expect(matchesFilter(entry({}), { ...all, text: "other" })).toBe(false);
   });
 
   it("knows the last message before a time", () => {

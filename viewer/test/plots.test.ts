@@ -2,8 +2,8 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { describe, expect, it } from "vitest";
-import { Curve, extremes } from "../src/plots/curve";
-import { shownRange, zoomed } from "../src/plots/range";
+import { Curve, findExtremes } from "../src/plots/curve";
+import { computeShownRange, zoomRange } from "../src/plots/range";
 
 const S = 1e9;
 const curveOf = (times: number[], values: number[]): Curve => {
@@ -38,9 +38,13 @@ describe("a curve", () => {
     }
     expect(curve.length).toBeGreaterThanOrEqual(20_000);
     expect(curve.length).toBeLessThanOrEqual(40_000);
-    expect([curve.last, curve.valueAt(Infinity), curve.valueAt(curve.first)]).toEqual([99_999, 99_999, curve.first]);
+    expect([curve.lastTime, curve.valueAt(Infinity), curve.valueAt(curve.firstTime)]).toEqual([
+      99_999,
+      99_999,
+      curve.firstTime,
+    ]);
     curve.receive({ id: 1, reset: true, times: new Float64Array([7]), values: new Float64Array([8]) });
-    expect([curve.length, curve.first, curve.valueAt(7)]).toEqual([1, 7, 8]);
+    expect([curve.length, curve.firstTime, curve.valueAt(7)]).toEqual([1, 7, 8]);
   });
 
   it("does not lose peaks when it is thinned", () => {
@@ -48,7 +52,7 @@ describe("a curve", () => {
     values[1234] = 5;
     values[4321] = -5;
     values.fill(NaN, 5000, 5003);
-    const kept = extremes(values, 0, values.length, 200);
+    const kept = findExtremes(values, 0, values.length, 200);
     expect(kept.length).toBeLessThanOrEqual(201);
     expect(kept).toContain(1234);
     expect(kept).toContain(4321);
@@ -60,22 +64,22 @@ describe("the displayed part of time", () => {
   const state = { span: [0, 100 * S] as [number, number], playhead: 50 * S, live: false, recorded: true };
 
   it("is the whole recording, a window around the playhead, or the zoomed part", () => {
-    expect(shownRange(state, 0, null)).toEqual([0, 100 * S]);
-    expect(shownRange(state, 10, null)).toEqual([45 * S, 55 * S]);
-    expect(shownRange(state, 10, [1, 2])).toEqual([1, 2]);
+    expect(computeShownRange(state, 0, null)).toEqual([0, 100 * S]);
+    expect(computeShownRange(state, 10, null)).toEqual([45 * S, 55 * S]);
+    expect(computeShownRange(state, 10, [1, 2])).toEqual([1, 2]);
   });
 
   it("ends with the newest data of a live source, unless the playhead is before it", () => {
     const live = { ...state, recorded: false, live: true, playhead: 100 * S };
-    expect(shownRange(live, 10, null)).toEqual([90 * S, 100 * S]);
-    expect(shownRange({ ...live, live: false, playhead: 95 * S }, 10, null)).toEqual([90 * S, 100 * S]);
-    expect(shownRange({ ...live, live: false, playhead: 30 * S }, 10, null)).toEqual([25 * S, 35 * S]);
-    expect(shownRange({ ...live, span: null, playhead: NaN }, 10, null)).toBeNull();
+    expect(computeShownRange(live, 10, null)).toEqual([90 * S, 100 * S]);
+    expect(computeShownRange({ ...live, live: false, playhead: 95 * S }, 10, null)).toEqual([90 * S, 100 * S]);
+    expect(computeShownRange({ ...live, live: false, playhead: 30 * S }, 10, null)).toEqual([25 * S, 35 * S]);
+    expect(computeShownRange({ ...live, span: null, playhead: NaN }, 10, null)).toBeNull();
   });
 
   it("is zoomed around a time", () => {
-    expect(zoomed([0, 10 * S], 0.5)).toEqual([2.5 * S, 7.5 * S]);
-    expect(zoomed([0, 10 * S], 2, 0)).toEqual([0, 20 * S]);
+    expect(zoomRange([0, 10 * S], 0.5)).toEqual([2.5 * S, 7.5 * S]);
+    expect(zoomRange([0, 10 * S], 2, 0)).toEqual([0, 20 * S]);
   });
 });
 

@@ -6,7 +6,7 @@ import type { Model } from "../model/model";
 import type { Controlled, ControlKind, Json } from "../protocol/messages";
 import { h, select, setText, shorten } from "../util/dom";
 import { Teleop } from "./teleop";
-import { nested, parseValue, shownValue } from "./values";
+import { nestValues, parseValue, formatValue } from "./values";
 
 type Mode = ControlKind | "drive";
 
@@ -135,7 +135,7 @@ export class ControlPane implements Pane {
     this.inputs.clear();
     this.fields.replaceChildren(
       ...fields.map((field) => {
-        const initial = shownValue(field);
+        const initial = formatValue(field);
         const input = h("input", { type: "text", title: field.type, aria: { label: field.path }, autocomplete: "off" });
         input.value = initial;
         input.addEventListener("input", () => input.setCustomValidity(""));
@@ -163,6 +163,6 @@ export class ControlPane implements Pane {
     this.answer.replaceChildren();
     setText(this.status, "Waiting for the answer…");
     // The names of parameters contain dots themselves.
-    this.request("act", this.type.value.trim(), this.mode === "node" ? Object.fromEntries(values) : nested(values));
+    this.request("act", this.type.value.trim(), this.mode === "node" ? Object.fromEntries(values) : nestValues(values));
   }
 }

@@ -116,7 +116,7 @@ export class Teleop {
     const linear: [number, number] = [forward * speed, left * speed];
     const angular = turn * rate;
     this.model.send({ type: "drive", topic: this.topic.value.trim(), ros_type: this.rosType, linear, angular });
-    const numbers = `${format.fixed(linear[0], 2)}, ${format.fixed(linear[1], 2)} m/s, ${format.fixed(angular, 2)} rad/s`;
+    const numbers = `${format.formatFixed(linear[0], 2)}, ${format.formatFixed(linear[1], 2)} m/s, ${format.formatFixed(angular, 2)} rad/s`;
     setText(this.state, moves ? numbers : "Standing still");
   }
 

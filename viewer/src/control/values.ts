@@ -15,13 +15,13 @@ export function parseValue(type: string, text: string): Json {
 }
 
 /** The text of a value in a field: strings without quotes, everything else as JSON. */
-export function shownValue({ type, value }: ControlledField): string {
+export function formatValue({ type, value }: ControlledField): string {
   const parsed = JSON.parse(value) as Json;
   return typeof parsed === "string" && /string|str/.test(type) ? parsed : value;
 }
 
 /** Nests values by their paths: `linear.x` becomes `{linear: {x: ...}}`. */
-export function nested(values: ReadonlyMap<string, Json>): JsonObject {
+export function nestValues(values: ReadonlyMap<string, Json>): JsonObject {
   const root: JsonObject = {};
   for (const [path, value] of values) {
     const steps = path.split(".");

@@ -9,7 +9,7 @@ import { slice, type BoxItem, type RectanglesShape, type Shapes } from "../proto
 import { textSprite } from "../scene/text_sprite";
 import { MessageDisplay } from "./display";
 import type { DisplayClass } from "../generated/displays";
-import { solid } from "./vectors";
+import { makeSolidMaterial } from "./vectors";
 
 type BoxClass = "BoundingBox3DArray" | "Detection3D" | "Detection3DArray";
 type RectangleClass = "Detection2D" | "Detection2DArray";
@@ -39,7 +39,7 @@ export class BoxesDisplay extends MessageDisplay<Shapes, BoxClass> {
   protected override describe({ description }: Shapes, object: THREE.Object3D): Record<string, unknown> {
     const items = description.kind === "boxes" ? description.items : [];
     const boxes = object.children.map((part, i) => ({
-      center: this.inFixed(part.getWorldPosition(new THREE.Vector3())),
+      center: this.toFixedFrame(part.getWorldPosition(new THREE.Vector3())),
       size: items[i]?.size,
       label: labelOf(items[i] as BoxItem, true),
     }));
@@ -51,7 +51,7 @@ export class BoxesDisplay extends MessageDisplay<Shapes, BoxClass> {
     const color = this.options.color("Color") || classColor(item.label);
     const geometry = new THREE.BoxGeometry(...size);
     if (!this.options.flag("Only Edge"))
-      group.add(new THREE.Mesh(geometry, solid(color, this.options.number("Alpha"))));
+      group.add(new THREE.Mesh(geometry, makeSolidMaterial(color, this.options.number("Alpha"))));
     const edges = new THREE.EdgesGeometry(geometry).getAttribute("position").array as Float32Array;
     const width = this.options.number("Line Width");
     const material = new LineMaterial({ color, worldUnits: true, linewidth: width });

@@ -5,7 +5,7 @@ import * as THREE from "three";
 import { slice, type Shapes } from "../protocol/messages";
 import { rgbOf } from "../util/color_scale";
 import { MessageDisplay } from "./display";
-import { solid } from "./vectors";
+import { makeSolidMaterial } from "./vectors";
 
 const UNKNOWN_ALPHA = 0.1;
 
@@ -27,7 +27,7 @@ export class CellsDisplay extends MessageDisplay<Shapes, "GridCells" | "VoxelGri
       ),
     );
     if (voxels?.unknown) {
-      const faint = solid("#8a949c", alpha * UNKNOWN_ALPHA);
+      const faint = makeSolidMaterial("#8a949c", alpha * UNKNOWN_ALPHA);
       group.add(cells(geometry.clone(), slice(payload, description.unknown, 3), faint, null));
     }
     return group;
@@ -37,7 +37,7 @@ export class CellsDisplay extends MessageDisplay<Shapes, "GridCells" | "VoxelGri
   protected override describe(_message: Shapes, object: THREE.Object3D): Record<string, unknown> {
     const box = new THREE.Box3().setFromObject(object);
     const counts = object.children.map((part) => (part as THREE.InstancedMesh).count);
-    return { counts, min: this.inFixed(box.min), max: this.inFixed(box.max) };
+    return { counts, min: this.toFixedFrame(box.min), max: this.toFixedFrame(box.max) };
   }
 
   private get voxelOptions(): { byHeight: boolean; unknown: boolean } | null {
@@ -47,7 +47,7 @@ export class CellsDisplay extends MessageDisplay<Shapes, "GridCells" | "VoxelGri
   }
 
   private material(alpha: number, byHeight: boolean): THREE.MeshLambertMaterial {
-    const made = solid(byHeight ? "#ffffff" : this.options.color("Color"), alpha);
+    const made = makeSolidMaterial(byHeight ? "#ffffff" : this.options.color("Color"), alpha);
     made.side = THREE.DoubleSide;
     return made;
   }

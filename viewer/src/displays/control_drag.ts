@@ -36,29 +36,31 @@ const RADIANS_PER_PIXEL = 0.01;
 const MIN_ANGLE_SINE = 0.02;
 
 /** The pose of the marker; null if the pointer is at no valid point. */
-export function dragged(start: DragStart, pointer: DragPointer): DraggedPose | null {
+export function dragPose(start: DragStart, pointer: DragPointer): DraggedPose | null {
   const { mode, axis, grabbed, camera } = start;
   switch (mode) {
     case MODE.moveAxis:
-      return moved(start, alongAxis(grabbed, axis, pointer.ray));
+      return movePose(start, alongAxis(grabbed, axis, pointer.ray));
     case MODE.movePlane:
-      return moved(start, inPlane(grabbed, axis, pointer.ray));
+      return movePose(start, projectToPlane(grabbed, axis, pointer.ray));
     case MODE.rotateAxis:
-      return turned(start, inPlane(grabbed, axis, pointer.ray), false);
+      return turnPose(start, projectToPlane(grabbed, axis, pointer.ray), false);
     case MODE.moveRotate:
-      return turned(start, inPlane(grabbed, axis, pointer.ray), true);
+      return turnPose(start, projectToPlane(grabbed, axis, pointer.ray), true);
     case MODE.move3d:
-      return moved(start, inPlane(grabbed, camera.forward, pointer.ray));
+      return movePose(start, projectToPlane(grabbed, camera.forward, pointer.ray));
     case MODE.rotate3d:
-      return rolled(start, pointer.moved);
+      return rollPose(start, pointer.moved);
     case MODE.moveRotate3d:
-      return pointer.shift ? rolled(start, pointer.moved) : moved(start, inPlane(grabbed, camera.forward, pointer.ray));
+      return pointer.shift
+        ? rollPose(start, pointer.moved)
+        : movePose(start, projectToPlane(grabbed, camera.forward, pointer.ray));
     default:
       return null;
   }
 }
 
-function moved({ position, quaternion, grabbed }: DragStart, to: THREE.Vector3 | null): DraggedPose | null {
+function movePose({ position, quaternion, grabbed }: DragStart, to: THREE.Vector3 | null): DraggedPose | null {
   return to && { position: position.clone().add(to).sub(grabbed), quaternion: quaternion.clone() };
 }
 
@@ -72,14 +74,14 @@ function alongAxis(grabbed: THREE.Vector3, axis: THREE.Vector3, ray: THREE.Ray):
   return grabbed.clone().addScaledVector(axis, distance);
 }
 
-function inPlane(grabbed: THREE.Vector3, normal: THREE.Vector3, ray: THREE.Ray): THREE.Vector3 | null {
+function projectToPlane(grabbed: THREE.Vector3, normal: THREE.Vector3, ray: THREE.Ray): THREE.Vector3 | null {
   if (Math.abs(normal.dot(ray.direction)) < MIN_ANGLE_SINE) return null;
   const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(normal, grabbed);
   return ray.intersectPlane(plane, new THREE.Vector3());
 }
 
 /** Turns the marker about the axis so that the grabbed point follows; `follows` also moves it there. */
-function turned(start: DragStart, to: THREE.Vector3 | null, follows: boolean): DraggedPose | null {
+function turnPose(start: DragStart, to: THREE.Vector3 | null, follows: boolean): DraggedPose | null {
   if (!to) return null;
   const { axis, position, quaternion, grabbed } = start;
   const flat = (point: THREE.Vector3): THREE.Vector3 => point.clone().sub(position).projectOnPlane(axis);
@@ -92,7 +94,7 @@ function turned(start: DragStart, to: THREE.Vector3 | null, follows: boolean): D
 }
 
 /** Turns the marker like a ball under the pointer. */
-function rolled({ position, quaternion, camera }: DragStart, [right, down]: readonly [number, number]): DraggedPose {
+function rollPose({ position, quaternion, camera }: DragStart, [right, down]: readonly [number, number]): DraggedPose {
   const turn = new THREE.Quaternion()
     .setFromAxisAngle(camera.up, right * RADIANS_PER_PIXEL)
     .multiply(new THREE.Quaternion().setFromAxisAngle(camera.right, down * RADIANS_PER_PIXEL));

@@ -199,7 +199,7 @@ export abstract class MessageDisplay<
       topic: this.config.topic,
       messages: shown.map(({ object, message }) => ({
         sequence: message.sequence,
-        position: this.inFixed(object.position),
+        position: this.toFixedFrame(object.position),
         quaternion: object.quaternion.toArray(),
         ...this.describe(message, object),
       })),
@@ -233,7 +233,7 @@ export abstract class MessageDisplay<
       topic: this.config.topic,
       frame: null,
       stamp: "stamp" in message ? message.stamp : null,
-      position: this.inFixed(hit.point) as Vector,
+      position: this.toFixedFrame(hit.point) as Vector,
       rows: [],
       source: {
         id: this.id,
@@ -254,7 +254,7 @@ export abstract class MessageDisplay<
   }
 
   /** Converts scene coordinates to the fixed frame. */
-  protected inFixed(point: THREE.Vector3): number[] {
+  protected toFixedFrame(point: THREE.Vector3): number[] {
     return point.toArray().map((value, k) => value + (this.origin[k] as number));
   }
 

@@ -5,7 +5,7 @@ import * as THREE from "three";
 import { slice, type Shapes } from "../protocol/messages";
 import { principalAxes } from "../util/math";
 import { MessageDisplay } from "./display";
-import { solid } from "./vectors";
+import { makeSolidMaterial } from "./vectors";
 
 const COVARIANCE_ALPHA = 0.25;
 
@@ -17,7 +17,10 @@ export class FixDisplay extends MessageDisplay<Shapes, "NavSatFix"> {
     if (points.length < 3 || !points.every(Number.isFinite)) return group;
     const color = this.options.color("Color");
     const alpha = this.options.number("Alpha");
-    const newest = new THREE.Mesh(new THREE.SphereGeometry(this.options.number("Radius"), 24, 16), solid(color, alpha));
+    const newest = new THREE.Mesh(
+      new THREE.SphereGeometry(this.options.number("Radius"), 24, 16),
+      makeSolidMaterial(color, alpha),
+    );
     newest.position.fromArray(points, points.length - 3);
     const geometry = new THREE.BufferGeometry().setAttribute("position", new THREE.BufferAttribute(points, 3));
     const line = new THREE.Line(
@@ -29,7 +32,10 @@ export class FixDisplay extends MessageDisplay<Shapes, "NavSatFix"> {
     const variances = description.covariance;
     if (variances?.every((value) => value !== null) && this.options.flag("Covariance")) {
       const axes = principalAxes(variances);
-      const ellipsoid = new THREE.Mesh(new THREE.SphereGeometry(1, 24, 16), solid(color, alpha * COVARIANCE_ALPHA));
+      const ellipsoid = new THREE.Mesh(
+        new THREE.SphereGeometry(1, 24, 16),
+        makeSolidMaterial(color, alpha * COVARIANCE_ALPHA),
+      );
       ellipsoid.scale.fromArray(axes.variances.map((variance) => Math.max(1e-6, Math.sqrt(Math.max(0, variance)))));
       ellipsoid.quaternion.fromArray(axes.quaternion);
       ellipsoid.position.copy(newest.position);

@@ -162,20 +162,20 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
     const inside =
       shown && x !== undefined && y !== undefined && x >= 0 && y >= 0 && x < canvas.width && y < canvas.height;
     this.pointed = inside
-      ? `(${x * shown.step}, ${y * shown.step}): ${valueAt(shown, x, y) ?? this.painted8(x, y)}`
+      ? `(${x * shown.step}, ${y * shown.step}): ${valueAt(shown, x, y) ?? this.pixelColor(x, y)}`
       : "";
     this.updateCaption();
   }
 
   /** The color of a pixel that the browser has decoded. */
-  private painted8(x: number, y: number): string {
+  private pixelColor(x: number, y: number): string {
     const pixel = this.canvas.getContext("2d")?.getImageData(x, y, 1, 1).data;
     return pixel ? pixel.slice(0, 3).join(" ") : "";
   }
 
   private updateCaption(): void {
     const zoomed = this.zoom.factor > 1 ? `${Math.round(this.zoom.factor * 100)} %` : "";
-    const range = this.shown?.values ? `${short(this.range[0])} to ${short(this.range[1])}` : "";
+    const range = this.shown?.values ? `${formatShort(this.range[0])} to ${formatShort(this.range[1])}` : "";
     const name = shorten(this.config.topic ?? this.config.name, 60) + (this.problem && `: ${this.problem}`);
     setText(this.caption, [name, this.pointed || range, zoomed].filter(Boolean).join(" · "));
   }
@@ -280,13 +280,13 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
     }
     const { options } = this;
     if (values && message !== this.shown)
-      this.normalized = this.ranges.next(rangeOf(values), options.number("Median window"));
+      this.normalized = this.ranges.addRange(rangeOf(values), options.number("Median window"));
     const given: Range = [options.number("Min Value"), options.number("Max Value")];
     this.range = options.flag("Normalize Range") ? this.normalized : given;
     return toColors(message, this.range);
   }
 }
 
-function short(value: number): string {
+function formatShort(value: number): string {
   return String(Number(value.toPrecision(4)));
 }

@@ -20,7 +20,7 @@ export class ImageZoom {
     private readonly content: HTMLElement,
     private readonly changed: () => void,
   ) {
-    frame.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
+    frame.addEventListener("wheel", (event) => this.onWheel(event), { passive: false });
     frame.addEventListener("pointerdown", (event) => {
       if (this.factor > 1) frame.setPointerCapture(event.pointerId);
     });
@@ -35,7 +35,7 @@ export class ImageZoom {
     this.apply();
   }
 
-  private wheel(event: WheelEvent): void {
+  private onWheel(event: WheelEvent): void {
     event.preventDefault();
     const bounds = this.frame.getBoundingClientRect();
     const [x, y] = [event.clientX - bounds.left, event.clientY - bounds.top];

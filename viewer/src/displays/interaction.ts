@@ -7,7 +7,7 @@ import type { Model } from "../model/model";
 import type { MenuItem, UseControl, Vector } from "../protocol/messages";
 import { h } from "../util/dom";
 import { toast } from "../util/toast";
-import { dragged, type DragStart } from "./control_drag";
+import { dragPose, type DragStart } from "./control_drag";
 import type { View } from "../scene/view";
 
 const FEEDBACK_INTERVAL_MS = 50;
@@ -43,7 +43,7 @@ export class Interaction {
   private controlAt(event: PointerEvent): { control: Control; object: THREE.Object3D; point: THREE.Vector3 } | null {
     const shown = this.displays().filter(({ config }) => config.enabled);
     if (shown.length === 0) return null;
-    const hit = this.view.hit(
+    const hit = this.view.findHit(
       event,
       shown.map(({ object }) => object),
     );
@@ -96,7 +96,7 @@ export class Interaction {
     const moved = [event.clientX - drag.x, event.clientY - drag.y] as const;
     if (!drag.moved && Math.hypot(...moved) < CLICK_PX) return;
     drag.moved = true;
-    const pose = dragged(drag.start, { ray: this.view.rayAt(event), moved, shift: event.shiftKey });
+    const pose = dragPose(drag.start, { ray: this.view.rayAt(event), moved, shift: event.shiftKey });
     if (!pose) return;
     const { control } = drag;
     const frame = control.marker.parent as THREE.Object3D;

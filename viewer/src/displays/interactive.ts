@@ -10,7 +10,7 @@ import { axesMaterial } from "./axes";
 import { arrowGeometry } from "./arrows";
 import { MessageDisplay, type Context, type DisplayConfig } from "./display";
 import { markerObject, type MarkerTools } from "./markers";
-import { solid } from "./vectors";
+import { makeSolidMaterial } from "./vectors";
 
 /** The modes of controls, as in visualization_msgs/InteractiveMarkerControl. */
 export const MODE = {
@@ -99,7 +99,7 @@ export class InteractiveDisplay extends MessageDisplay<Shapes, "InteractiveMarke
       const control = part.userData.control as Control | undefined;
       if (!control) return [];
       const parts = part.children.map((child) =>
-        this.inFixed(new THREE.Box3().setFromObject(child).getCenter(new THREE.Vector3())),
+        this.toFixedFrame(new THREE.Box3().setFromObject(child).getCenter(new THREE.Vector3())),
       );
       return [{ name: control.item.name, mode: control.item.interaction_mode, parts }];
     });
@@ -134,7 +134,7 @@ export class InteractiveDisplay extends MessageDisplay<Shapes, "InteractiveMarke
     const direction = new THREE.Vector3(1, 0, 0).applyQuaternion(quaternion(item)).toArray().map(Math.abs);
     const color = `#${new THREE.Color().setRGB(...(direction as [number, number, number])).getHexString()}`;
     const look = (): THREE.Material => {
-      const made = solid(color, this.options.flag("Enable Transparency") ? DEFAULT_ALPHA : 1);
+      const made = makeSolidMaterial(color, this.options.flag("Enable Transparency") ? DEFAULT_ALPHA : 1);
       made.side = THREE.DoubleSide;
       return made;
     };

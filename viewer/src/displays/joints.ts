@@ -7,7 +7,7 @@ import { slice, type FrameUpdate, type RobotModel, type Shapes } from "../protoc
 import { IDENTITY, type Pose } from "../util/math";
 import { MessageDisplay } from "./display";
 import { Kinematics } from "./robot_kinematics";
-import { solid } from "./vectors";
+import { makeSolidMaterial } from "./vectors";
 
 /** Joints without a limit are drawn relative to this effort. */
 const DEFAULT_EFFORT = 10;
@@ -88,7 +88,7 @@ export class EffortDisplay extends JointsDisplay<"Effort"> {
     const tube = this.options.number("Width") / 2;
     const turn = FULL_TURN * size;
     const color = `#${new THREE.Color().setHSL((1 - size) / 3, 0.9, 0.5).getHexString()}`;
-    const look = solid(color, this.options.number("Alpha"));
+    const look = makeSolidMaterial(color, this.options.number("Alpha"));
     const arc = new THREE.Mesh(new THREE.TorusGeometry(radius, tube, 8, 64, turn), look);
     const head = new THREE.Mesh(new THREE.ConeGeometry(tube * 2.5, tube * 5, 12), look.clone());
     head.position.set(radius * Math.cos(turn), radius * Math.sin(turn), 0);
@@ -163,7 +163,7 @@ export class TrajectoryDisplay extends JointsDisplay<"JointTrajectory"> {
       const [from, to] = [end.get(parent), end.get(child)];
       if (from && to) drawn.add(line([...from.position, ...to.position], material));
       if (!to || !(child in paths)) continue;
-      const ball = new THREE.Mesh(new THREE.SphereGeometry(LINK_RADIUS_M, 12, 8), solid(color, alpha));
+      const ball = new THREE.Mesh(new THREE.SphereGeometry(LINK_RADIUS_M, 12, 8), makeSolidMaterial(color, alpha));
       ball.position.fromArray(to.position);
       drawn.add(ball);
     }

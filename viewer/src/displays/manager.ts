@@ -14,7 +14,7 @@ import type {
   DisplayOptions,
   DisplayTopic,
 } from "../protocol/messages";
-import { remember, remembered } from "../util/storage";
+import { remember, loadStored } from "../util/storage";
 import type { Theme } from "../util/theme";
 import type { View } from "../scene/view";
 import type { Model } from "../model/model";
@@ -61,7 +61,7 @@ export class Displays {
         for (const display of this.list) if (display instanceof MessageDisplay) display.clear();
       this.start(hello.rviz);
     });
-    model.on("topics", (topics) => this.offer(topics));
+    model.on("topics", (topics) => this.showOffered(topics));
     model.on("robot", (robot) => this.setRobot(robot));
     model.on("message", (message) => this.receive(message));
     model.on("display", (status) => this.setStatus(status));
@@ -107,20 +107,20 @@ export class Displays {
   add(className: string, topic: string | null, name = className): void {
     this.automatic = false;
     this.create({ class: className, name: this.freeName(name), enabled: true, topic, options: {} });
-    this.changed();
+    this.notifyChange();
   }
 
   remove(display: Display): void {
     this.automatic = false;
     this.drop(display);
-    this.changed();
+    this.notifyChange();
   }
 
   /** Enables or disables a display itself. In a disabled group, it stays hidden. */
   setEnabled(display: Display, checked: boolean): void {
     display.config.checked = checked;
     this.setShown(display, checked && this.groupsEnabled(display.config.group));
-    this.changed();
+    this.notifyChange();
   }
 
   setGroupEnabled(group: RvizGroup, enabled: boolean): void {
@@ -130,7 +130,7 @@ export class Displays {
       display.config.checked ??= display.config.enabled;
       if (shown !== display.config.enabled) this.setShown(display, shown);
     }
-    this.changed();
+    this.notifyChange();
   }
 
   renameGroup(group: RvizGroup, name: string): void {
@@ -190,7 +190,7 @@ export class Displays {
     delete display.config.added;
     if (display instanceof MessageDisplay) this.resubscribeIfNeeded(display);
     display.restyle();
-    this.changed();
+    this.notifyChange();
   }
 
   /** Displays a CameraInfo into whose image the scene is projected. */
@@ -208,7 +208,7 @@ export class Displays {
     this.groups = (rviz.groups ?? []).map((group) => ({ ...group }));
     for (const display of rviz.displays) this.create({ ...display, topic: display.topic ?? null });
     for (const robot of this.model.robots.values()) this.assignRobot(robot);
-    this.changed();
+    this.notifyChange();
   }
 
   /** The displays in the format of .rviz files. */
@@ -242,7 +242,7 @@ export class Displays {
     const order = restored.map((display, i) => display ?? this.create(displays[i] as DisplayConfig));
     this.list = order.filter((display) => display !== null);
     for (const robot of this.model.robots.values()) this.assignRobot(robot);
-    this.changed();
+    this.notifyChange();
   }
 
   /** The topics of enabled displays, with the options of their subscriptions. */
@@ -256,26 +256,26 @@ export class Displays {
   private start(rviz: RvizConfiguration | null): void {
     if (this.started) return;
     this.started = true;
-    const last = remembered<DisplayConfig[]>("displays", []);
+    const last = loadStored<DisplayConfig[]>("displays", []);
     if (rviz) this.apply(rviz);
     else if (Array.isArray(last) && last.length > 0 && last.every(isConfig)) {
       this.automatic = false;
-      this.groups = remembered<RvizGroup[]>("groups", []).filter(isGroup);
+      this.groups = loadStored<RvizGroup[]>("groups", []).filter(isGroup);
       for (const config of last) {
         const enabled = config.enabled && this.groupsEnabled(config.group);
         this.create({ ...config, checked: config.enabled, enabled });
       }
-      this.changed();
+      this.notifyChange();
     } else {
       this.create({ class: "Grid", name: "Grid", enabled: true, topic: null, options: {} });
       this.create({ class: "TF", name: "TF", enabled: true, topic: null, options: {} });
-      this.changed();
+      this.notifyChange();
     }
-    this.offer(this.model.topics);
+    this.showOffered(this.model.topics);
   }
 
   /** Displays the topics that the server has chosen, which may change while topics appear. */
-  private offer(topics: DisplayTopic[]): void {
+  private showOffered(topics: DisplayTopic[]): void {
     if (!this.automatic || !this.started) return;
     const chosen = new Set(topics.filter(({ automatic }) => automatic).map(({ topic }) => topic));
     const isReplaced = (display: Display): boolean =>
@@ -298,7 +298,7 @@ export class Displays {
   }
 
   /** The topics that could be displayed and are not. */
-  get omitted(): DisplayTopic[] {
+  get omittedTopics(): DisplayTopic[] {
     const shown = new Set(this.list.map(({ config }) => config.topic));
     return this.model.topics.filter(({ topic, display }) => displayClass(display) && !shown.has(topic));
   }
@@ -308,7 +308,7 @@ export class Displays {
     if (!wanted || wanted === display.config.name) return;
     this.automatic = false;
     display.config.name = this.freeName(wanted);
-    this.changed();
+    this.notifyChange();
   }
 
   /** Adds a display with the same topic and options after it. */
@@ -321,7 +321,7 @@ export class Displays {
       if (made instanceof RobotDisplay && display instanceof RobotDisplay && display.robot)
         made.setRobot(display.robot);
     }
-    this.changed();
+    this.notifyChange();
   }
 
   /** Moves a display in the list, which is the order in an .rviz file. */
@@ -330,7 +330,7 @@ export class Displays {
     const to = Math.max(0, Math.min(this.list.length - 1, at + by));
     this.automatic = false;
     this.list.splice(to, 0, ...this.list.splice(at, 1));
-    this.changed();
+    this.notifyChange();
   }
 
   private setRobot(robot: RobotModel): void {
@@ -405,7 +405,7 @@ export class Displays {
     this.notify();
   }
 
-  private changed(): void {
+  private notifyChange(): void {
     this.chooseResolutions();
     if (!this.automatic) {
       remember("displays", this.save());

@@ -72,7 +72,7 @@ export class MarkersDisplay extends MessageDisplay<Shapes, "Marker" | "MarkerArr
     const markers = object.children.map((part) => {
       const box = new THREE.Box3().setFromObject(part);
       const [center, size] = [box.getCenter(new THREE.Vector3()), box.getSize(new THREE.Vector3())];
-      return { ...part.userData.marker, center: this.inFixed(center), size: size.toArray() };
+      return { ...part.userData.marker, center: this.toFixedFrame(center), size: size.toArray() };
     });
     return { markers };
   }
@@ -131,7 +131,7 @@ export interface MarkerTools {
 
 /** The object of a marker, without its pose; null if it cannot be drawn. */
 export function markerObject(item: MarkerItem, payload: Float32Array, tools: MarkerTools): THREE.Object3D | null {
-  if (!finite(item)) return null;
+  if (!isDrawable(item)) return null;
   const object = shapeOf(item, payload, tools);
   object?.position.fromArray(item.pose);
   object?.quaternion.fromArray(item.pose, 3).normalize();
@@ -145,11 +145,11 @@ function shapeOf(item: DrawableMarker, payload: Float32Array, tools: MarkerTools
     case 0:
       return arrow(item, points);
     case 1:
-      return solid(new THREE.BoxGeometry(1, 1, 1), item);
+      return makeSolidMesh(new THREE.BoxGeometry(1, 1, 1), item);
     case 2:
-      return solid(new THREE.SphereGeometry(0.5, 24, 16), item);
+      return makeSolidMesh(new THREE.SphereGeometry(0.5, 24, 16), item);
     case 3:
-      return solid(new THREE.CylinderGeometry(0.5, 0.5, 1, 32).rotateX(Math.PI / 2), item);
+      return makeSolidMesh(new THREE.CylinderGeometry(0.5, 0.5, 1, 32).rotateX(Math.PI / 2), item);
     case 4:
       return lines(item, pairs(points, 3), pairs(colors, 4));
     case 5:
@@ -159,7 +159,7 @@ function shapeOf(item: DrawableMarker, payload: Float32Array, tools: MarkerTools
     case 7:
       return instanced(new THREE.SphereGeometry(0.5, 12, 8), item, points, colors);
     case 8:
-      return squares(item, points, colors);
+      return makeSquares(item, points, colors);
     case 9:
       return text(item);
     case 10:
@@ -201,7 +201,7 @@ function meshOf(item: DrawableMarker, tools: MarkerTools): THREE.Object3D {
 /** A marker whose pose and scale are finite. */
 type DrawableMarker = Omit<MarkerItem, "pose" | "scale"> & { pose: number[]; scale: Vector };
 
-function finite(item: MarkerItem): item is DrawableMarker {
+function isDrawable(item: MarkerItem): item is DrawableMarker {
   return item.pose.length === 7 && item.pose.every(Number.isFinite) && item.scale.every(Number.isFinite);
 }
 
@@ -223,7 +223,7 @@ function material(item: DrawableMarker): THREE.MeshLambertMaterial {
   });
 }
 
-function solid(geometry: THREE.BufferGeometry, item: DrawableMarker): THREE.Mesh {
+function makeSolidMesh(geometry: THREE.BufferGeometry, item: DrawableMarker): THREE.Mesh {
   const mesh = new THREE.Mesh(geometry, material(item));
   mesh.scale.set(...item.scale);
   return mesh;
@@ -329,7 +329,7 @@ function instanced(
 }
 
 /** Rectangles that face the camera, at points. */
-function squares(item: DrawableMarker, points: Float32Array, colors: Float32Array): THREE.Object3D {
+function makeSquares(item: DrawableMarker, points: Float32Array, colors: Float32Array): THREE.Object3D {
   const colored = colors.length / 4 >= points.length / 3;
   const rgba = new Uint8Array((points.length / 3) * 4);
   for (let i = 0; i < rgba.length; i++) {

@@ -4,7 +4,7 @@
 import * as THREE from "three";
 import { slice, type Shapes } from "../protocol/messages";
 import { MessageDisplay } from "./display";
-import { solid } from "./vectors";
+import { makeSolidMaterial } from "./vectors";
 
 export class PolygonDisplay extends MessageDisplay<Shapes, "Polygon"> {
   protected build({ description, payload }: Shapes): THREE.Object3D {
@@ -37,7 +37,7 @@ export class PointDisplay extends MessageDisplay<Shapes, "PointStamped"> {
     const at = slice(payload, description.points, 3);
     if (at.length < 3 || !at.every(Number.isFinite)) return group;
     const sphere = new THREE.SphereGeometry(this.options.number("Radius"), 24, 16);
-    const mesh = new THREE.Mesh(sphere, solid(this.options.color("Color"), this.options.number("Alpha")));
+    const mesh = new THREE.Mesh(sphere, makeSolidMaterial(this.options.color("Color"), this.options.number("Alpha")));
     mesh.position.fromArray(at);
     group.add(mesh);
     return group;
@@ -46,6 +46,6 @@ export class PointDisplay extends MessageDisplay<Shapes, "PointStamped"> {
   /** Returns the corners of the bounding box. */
   protected override describe(_message: Shapes, object: THREE.Object3D): Record<string, unknown> {
     const box = new THREE.Box3().setFromObject(object);
-    return { min: this.inFixed(box.min), max: this.inFixed(box.max) };
+    return { min: this.toFixedFrame(box.min), max: this.toFixedFrame(box.max) };
   }
 }

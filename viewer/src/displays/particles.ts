@@ -41,6 +41,6 @@ export class ParticlesDisplay extends MessageDisplay<Shapes, "ParticleCloud"> {
   protected override describe(_message: Shapes, object: THREE.Object3D): Record<string, unknown> {
     const box = new THREE.Box3().setFromObject(object);
     const mesh = object.children[0] as THREE.InstancedMesh | undefined;
-    return { particles: mesh?.count ?? 0, min: this.inFixed(box.min), max: this.inFixed(box.max) };
+    return { particles: mesh?.count ?? 0, min: this.toFixedFrame(box.min), max: this.toFixedFrame(box.max) };
   }
 }

@@ -11,7 +11,7 @@ export class RangeFilter {
   private ranges: Range[] = [];
 
   /** Adds the range of an image, and returns the medians of the last images. */
-  next(range: Range, window: number): Range {
+  addRange(range: Range, window: number): Range {
     this.ranges = [...this.ranges, range].slice(-Math.max(1, Math.round(window)));
     return [median(this.ranges.map(([low]) => low)), median(this.ranges.map(([, high]) => high))];
   }

@@ -25,14 +25,14 @@ export class PosesDisplay extends MessageDisplay<Shapes, "Pose" | "PoseArray" | 
       return group;
     }
     group.add(this.shape(newest, 1));
-    if (count > 1) group.add(trail(poses, this.color));
+    if (count > 1) group.add(makeTrail(poses, this.color));
     return group;
   }
 
   /** Returns the corners of the bounding box. */
   protected override describe(_message: Shapes, object: THREE.Object3D): Record<string, unknown> {
     const box = new THREE.Box3().setFromObject(object);
-    return { min: this.inFixed(box.min), max: this.inFixed(box.max) };
+    return { min: this.toFixedFrame(box.min), max: this.toFixedFrame(box.max) };
   }
 
   /** RViz nests the options of the shape in files of Odometry displays. */
@@ -66,7 +66,7 @@ export class PosesDisplay extends MessageDisplay<Shapes, "Pose" | "PoseArray" | 
 }
 
 /** The trail of past poses: a line that fades with age. */
-function trail(poses: Float32Array, color: string): THREE.Line {
+function makeTrail(poses: Float32Array, color: string): THREE.Line {
   const count = Math.floor(poses.length / 7);
   const points = new Float32Array(count * 3);
   const colors = new Float32Array(count * 4);

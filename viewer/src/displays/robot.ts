@@ -225,7 +225,7 @@ export class RobotDisplay extends Display<"RobotModel"> {
       Object.assign(material, { opacity: alpha, transparent: alpha < 1, depthWrite: alpha >= 1 });
     }
     if (texture !== null) this.addTexture(material, urlOf(robot, texture));
-    return this.adjusted(material);
+    return this.adjustMaterial(material);
   }
 
   /** Loads a texture; a surface without it is gray. */
@@ -250,12 +250,12 @@ export class RobotDisplay extends Display<"RobotModel"> {
     object.traverse((part) => {
       const mesh = part as THREE.Mesh;
       if (!mesh.isMesh) return;
-      const painted = materialsOf(mesh).map((material) => this.adjusted(material.clone()));
+      const painted = materialsOf(mesh).map((material) => this.adjustMaterial(material.clone()));
       mesh.material = painted.length === 1 ? (painted[0] as THREE.Material) : painted;
     });
   }
 
-  private adjusted(material: THREE.Material): THREE.Material {
+  private adjustMaterial(material: THREE.Material): THREE.Material {
     const alpha = this.options.number("Alpha");
     material.side = THREE.DoubleSide;
     if (alpha < 1) Object.assign(material, { transparent: true, opacity: material.opacity * alpha, depthWrite: false });

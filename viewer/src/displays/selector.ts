@@ -38,15 +38,15 @@ export class Selector {
     if (this.groups.length > 0) this.model.emit("parts", []);
   }
 
-  private get selectable(): Display[] {
+  private get selectableDisplays(): Display[] {
     return this.displays.list.filter(({ config, kind }) => config.enabled && DISPLAYS[kind].surfaces);
   }
 
   /** Selects the part under the pointer. Returns whether there is one. */
   private selectAt(event: PointerEvent): boolean {
-    const displays = this.selectable;
+    const displays = this.selectableDisplays;
     const roots = displays.map(({ object }) => object);
-    const hit = this.view.hit(event, roots, true);
+    const hit = this.view.findHit(event, roots, true);
     const part = hit && displays.map((display) => display.pick(hit)).find((found) => found !== null);
     if (!part) {
       this.clear();
@@ -59,7 +59,7 @@ export class Selector {
 
   private selectInside(box: PixelBox): void {
     const inside = this.view.insideBox(box);
-    const groups = [...this.selectable.map((display) => display.pickAll(inside)), this.framesInside(inside)];
+    const groups = [...this.selectableDisplays.map((display) => display.pickAll(inside)), this.framesInside(inside)];
     this.model.select(null);
     this.model.emit(
       "parts",

@@ -56,7 +56,7 @@ export class ScrewDisplay extends MessageDisplay<Shapes, ScrewClass> {
     const length = direction.length() * scale;
     if (length === 0 || (this.options.flag("Hide Small Values") && length <= width)) return;
     const alpha = this.options.number("Alpha");
-    const part = turns ? turning(length, width, color, alpha) : arrowAlong(length, width, color, alpha);
+    const part = turns ? makeTurnArrow(length, width, color, alpha) : arrowAlong(length, width, color, alpha);
     part.quaternion.setFromUnitVectors(new THREE.Vector3(1, 0, 0), direction.clone().normalize());
     part.userData.length = length;
     group.add(part);
@@ -81,7 +81,9 @@ export class ImuDisplay extends MessageDisplay<Shapes, "Imu"> {
         o.number(`Box properties/${key}` as "Box properties/x_scale"),
       );
       const color = o.color("Box properties/Box color");
-      turned.add(new THREE.Mesh(new THREE.BoxGeometry(...sizes), solid(color, o.number("Box properties/Box alpha"))));
+      turned.add(
+        new THREE.Mesh(new THREE.BoxGeometry(...sizes), makeSolidMaterial(color, o.number("Box properties/Box alpha"))),
+      );
     }
     group.add(turned);
     const acceleration = vector(description.acceleration);
@@ -114,11 +116,11 @@ export function arrowAlong(length: number, width: number, color: string, alpha: 
     headLength: length * HEAD,
     headRadius: width * HEAD_RADIUS,
   };
-  return new THREE.Mesh(arrowGeometry(shape), solid(color, alpha));
+  return new THREE.Mesh(arrowGeometry(shape), makeSolidMaterial(color, alpha));
 }
 
 /** An arrow along x, and an arrow in a circle around it, whose direction is that of a positive rotation about x. */
-function turning(length: number, width: number, color: string, alpha: number): THREE.Object3D {
+function makeTurnArrow(length: number, width: number, color: string, alpha: number): THREE.Object3D {
   const group = new THREE.Group();
   const points: THREE.Vector3[] = [];
   for (let i = CIRCLE_BEGIN; i <= CIRCLE_POINTS; i++) {
@@ -126,15 +128,18 @@ function turning(length: number, width: number, color: string, alpha: number): T
     points.push(new THREE.Vector3(length / 2, (length / 4) * Math.cos(angle), (length / 4) * Math.sin(angle)));
   }
   const circle = new THREE.TubeGeometry(new THREE.CatmullRomCurve3(points), 64, width * SHAFT_RADIUS * 0.5, 6);
-  group.add(arrowAlong(length, width, color, alpha), new THREE.Mesh(circle, solid(color, alpha)));
-  const head = new THREE.Mesh(new THREE.ConeGeometry(width * HEAD_RADIUS, width * HEAD, 16), solid(color, alpha));
+  group.add(arrowAlong(length, width, color, alpha), new THREE.Mesh(circle, makeSolidMaterial(color, alpha)));
+  const head = new THREE.Mesh(
+    new THREE.ConeGeometry(width * HEAD_RADIUS, width * HEAD, 16),
+    makeSolidMaterial(color, alpha),
+  );
   head.position.copy(points.at(-1) as THREE.Vector3);
   head.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), new THREE.Vector3(0, 0, 1));
   group.add(head);
   return group;
 }
 
-export function solid(color: string, alpha: number): THREE.MeshLambertMaterial {
+export function makeSolidMaterial(color: string, alpha: number): THREE.MeshLambertMaterial {
   return new THREE.MeshLambertMaterial({ color, transparent: alpha < 1, opacity: alpha, depthWrite: alpha >= 1 });
 }
 

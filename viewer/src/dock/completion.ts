@@ -71,7 +71,7 @@ export class CompletedInput {
         const option = h("li", { id: `${this.list.id}-${i}`, role: "option" }, shorten(item, 120));
         option.addEventListener("pointerdown", (event) => {
           event.preventDefault(); // The input keeps the focus.
-          this.accept(item);
+          this.acceptItem(item);
         });
         return option;
       }),
@@ -85,10 +85,10 @@ export class CompletedInput {
       if (this.items.length) this.choose(this.chosen + (event.key === "ArrowDown" ? 1 : -1));
     } else if (event.key === "Tab" && this.chosen >= 0) {
       event.preventDefault();
-      this.accept(this.items[this.chosen] ?? "");
+      this.acceptItem(this.items[this.chosen] ?? "");
     } else if (event.key === "Enter") {
       const item = this.items[this.chosen];
-      if (item !== undefined) this.accept(item);
+      if (item !== undefined) this.acceptItem(item);
       else this.enter();
     } else if (event.key === "Escape") {
       if (this.list.hidden) this.input.blur();
@@ -102,7 +102,7 @@ export class CompletedInput {
     this.enters = this.model.connected && this.answered !== this.requested;
     if (this.enters) return;
     const first = this.items[0];
-    if (text && first !== undefined && !this.items.includes(text)) this.accept(first);
+    if (text && first !== undefined && !this.items.includes(text)) this.acceptItem(first);
     else this.finish();
   }
 
@@ -115,7 +115,7 @@ export class CompletedInput {
   }
 
   /** Takes an item. One that ends with a separator is only the beginning of an expression. */
-  private accept(item: string): void {
+  private acceptItem(item: string): void {
     this.input.value = item;
     if (this.kind === "expression" && /[.:]$/.test(item)) this.request();
     else this.finish();

@@ -2,7 +2,7 @@
 /** The panels below or beside the scene. Those that are closed do nothing. */
 
 import { h, iconButton } from "../util/dom";
-import { remember, remembered } from "../util/storage";
+import { remember, loadStored } from "../util/storage";
 
 const PHONE = "(max-width: 760px)";
 const MIN_SIZE_PX = 120;
@@ -37,7 +37,7 @@ export class Dock {
   ) {
     for (const pane of panes) this.sections.set(pane.id, this.section(pane));
     root.append(this.handle, ...this.sections.values());
-    this.setSide(remembered("dock-side", false));
+    this.setSide(loadStored("dock-side", false));
     this.listen();
   }
 
@@ -64,7 +64,7 @@ export class Dock {
 
   /** Shows exactly these panels, at the place and with the size of the last session or of a saved view. */
   restore(wanted: readonly string[]): void {
-    this.setSide(remembered("dock-side", false));
+    this.setSide(loadStored("dock-side", false));
     for (const { id } of this.panes) this.show(id, wanted.includes(id));
   }
 
@@ -72,7 +72,7 @@ export class Dock {
     document.body.classList.toggle("dock-side", side);
     remember("dock-side", side);
     this.handle.setAttribute("aria-orientation", side ? "vertical" : "horizontal");
-    this.setSize(remembered(side ? "dock-width" : "dock-height", side ? 460 : 300));
+    this.setSize(loadStored(side ? "dock-width" : "dock-height", side ? 460 : 300));
   }
 
   private section(pane: Pane): HTMLElement {

@@ -8,10 +8,10 @@ export type JsonObject = { [key: string]: Json };
 
 /** Reads the fields of a binary message, one after another. */
 export interface FieldReader {
-  u32(): number;
-  f32(): number;
-  f64(): number;
-  floats(count: number): Float32Array;
+  readUint32(): number;
+  readFloat32(): number;
+  readFloat64(): number;
+  readFloats(count: number): Float32Array;
 }
 
 /**
@@ -1547,12 +1547,12 @@ export interface FramesHeader {
 
 export function readFramesHeader(reader: FieldReader): FramesHeader {
   return {
-    kind: reader.u32(),
-    revision: reader.u32(),
-    time: reader.f64(),
-    origin: [reader.f64(), reader.f64(), reader.f64()],
-    frames: reader.u32(),
-    entries: reader.u32(),
+    kind: reader.readUint32(),
+    revision: reader.readUint32(),
+    time: reader.readFloat64(),
+    origin: [reader.readFloat64(), reader.readFloat64(), reader.readFloat64()],
+    frames: reader.readUint32(),
+    entries: reader.readUint32(),
   };
 }
 
@@ -1571,11 +1571,11 @@ export interface EntryRecord {
 
 export function readEntryRecord(reader: FieldReader): EntryRecord {
   return {
-    display: reader.u32(),
-    sequence: reader.u32(),
-    frame: reader.u32(),
-    pose: reader.floats(7),
-    missing: reader.u32(),
+    display: reader.readUint32(),
+    sequence: reader.readUint32(),
+    frame: reader.readUint32(),
+    pose: reader.readFloats(7),
+    missing: reader.readUint32(),
   };
 }
 
@@ -1596,13 +1596,13 @@ export interface CloudHeader {
 
 export function readCloudHeader(reader: FieldReader): CloudHeader {
   return {
-    kind: reader.u32(),
-    display: reader.u32(),
-    sequence: reader.u32(),
-    points: reader.u32(),
-    flags: reader.u32(),
-    stamp: reader.f64(),
-    range: [reader.f32(), reader.f32()],
+    kind: reader.readUint32(),
+    display: reader.readUint32(),
+    sequence: reader.readUint32(),
+    points: reader.readUint32(),
+    flags: reader.readUint32(),
+    stamp: reader.readFloat64(),
+    range: [reader.readFloat32(), reader.readFloat32()],
   };
 }
 
@@ -1619,13 +1619,13 @@ export interface GridHeader {
 
 export function readGridHeader(reader: FieldReader): GridHeader {
   return {
-    kind: reader.u32(),
-    display: reader.u32(),
-    sequence: reader.u32(),
-    width: reader.u32(),
-    height: reader.u32(),
-    resolution: reader.f32(),
-    corner: reader.floats(7),
+    kind: reader.readUint32(),
+    display: reader.readUint32(),
+    sequence: reader.readUint32(),
+    width: reader.readUint32(),
+    height: reader.readUint32(),
+    resolution: reader.readFloat32(),
+    corner: reader.readFloats(7),
   };
 }
 
@@ -1646,13 +1646,13 @@ export interface GridPartHeader {
 
 export function readGridPartHeader(reader: FieldReader): GridPartHeader {
   return {
-    kind: reader.u32(),
-    display: reader.u32(),
-    sequence: reader.u32(),
-    x: reader.u32(),
-    y: reader.u32(),
-    width: reader.u32(),
-    height: reader.u32(),
+    kind: reader.readUint32(),
+    display: reader.readUint32(),
+    sequence: reader.readUint32(),
+    x: reader.readUint32(),
+    y: reader.readUint32(),
+    width: reader.readUint32(),
+    height: reader.readUint32(),
   };
 }
 
@@ -1666,10 +1666,10 @@ export interface ShapesHeader {
 
 export function readShapesHeader(reader: FieldReader): ShapesHeader {
   return {
-    kind: reader.u32(),
-    display: reader.u32(),
-    sequence: reader.u32(),
-    length: reader.u32(),
+    kind: reader.readUint32(),
+    display: reader.readUint32(),
+    sequence: reader.readUint32(),
+    length: reader.readUint32(),
   };
 }
 
@@ -1686,13 +1686,13 @@ export interface ImageHeader {
 
 export function readImageHeader(reader: FieldReader): ImageHeader {
   return {
-    kind: reader.u32(),
-    display: reader.u32(),
-    sequence: reader.u32(),
-    width: reader.u32(),
-    height: reader.u32(),
-    format: reader.u32(),
-    stamp: reader.f64(),
+    kind: reader.readUint32(),
+    display: reader.readUint32(),
+    sequence: reader.readUint32(),
+    width: reader.readUint32(),
+    height: reader.readUint32(),
+    format: reader.readUint32(),
+    stamp: reader.readFloat64(),
   };
 }
 
@@ -1708,8 +1708,8 @@ export interface CurvesHeader {
 
 export function readCurvesHeader(reader: FieldReader): CurvesHeader {
   return {
-    kind: reader.u32(),
-    curves: reader.u32(),
+    kind: reader.readUint32(),
+    curves: reader.readUint32(),
   };
 }
 
@@ -1723,10 +1723,10 @@ export interface CurveRecord {
 
 export function readCurveRecord(reader: FieldReader): CurveRecord {
   return {
-    curve: reader.u32(),
-    reset: reader.u32(),
-    points: reader.u32(),
-    reserved: reader.u32(),
+    curve: reader.readUint32(),
+    reset: reader.readUint32(),
+    points: reader.readUint32(),
+    reserved: reader.readUint32(),
   };
 }
 
@@ -1749,13 +1749,13 @@ export interface NodeHeader {
 
 export function readNodeHeader(reader: FieldReader): NodeHeader {
   return {
-    kind: reader.u32(),
-    node: reader.u32(),
-    vertices: reader.u32(),
-    indices: reader.u32(),
-    colors: reader.u32(),
-    width: reader.u32(),
-    offset: [reader.f64(), reader.f64(), reader.f64()],
+    kind: reader.readUint32(),
+    node: reader.readUint32(),
+    vertices: reader.readUint32(),
+    indices: reader.readUint32(),
+    colors: reader.readUint32(),
+    width: reader.readUint32(),
+    offset: [reader.readFloat64(), reader.readFloat64(), reader.readFloat64()],
   };
 }
 

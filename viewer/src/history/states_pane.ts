@@ -5,10 +5,10 @@ import { CompletedInput, MAX_TEXT } from "../dock/completion";
 import type { Pane } from "../dock/dock";
 import type { Model } from "../model/model";
 import { COLORS } from "../plots/colors";
-import { shownRange, WINDOWS, zoomed, type Range } from "../plots/range";
+import { computeShownRange, WINDOWS, zoomRange, type Range } from "../plots/range";
 import { h, iconButton, select, setText, shorten } from "../util/dom";
 import * as format from "../util/format";
-import { remember, remembered } from "../util/storage";
+import { remember, loadStored } from "../util/storage";
 import { toast } from "../util/toast";
 import { numbered, States } from "./states";
 
@@ -35,7 +35,7 @@ export class StatesPane implements Pane {
   private readonly list = h("ul", { class: "states", id: "states", aria: { label: "States over time" } });
   private lines: Line[] = [];
   private nextId = 1;
-  private seconds = remembered("states-window", -1);
+  private seconds = loadStored("states-window", -1);
   private zoom: Range | null = null;
   private isOpen = false;
   private timer = 0;
@@ -64,7 +64,7 @@ export class StatesPane implements Pane {
       }),
     ];
     this.body = h("div", { class: "states-body" }, this.input.element, this.list);
-    for (const field of remembered<string[]>("states", []).slice(0, MAX_FIELDS))
+    for (const field of loadStored<string[]>("states", []).slice(0, MAX_FIELDS))
       if (typeof field === "string" && field.length <= MAX_TEXT) this.insert(field);
     model.on("states", (message) => {
       this.lines.find(({ states }) => states.id === message.id)?.states.receive(message);
@@ -175,7 +175,7 @@ export class StatesPane implements Pane {
         const [at, range] = [timeAt(event), this.range()];
         if (at === null || !range) return;
         event.preventDefault();
-        this.zoom = zoomed(range, event.deltaY < 0 ? 1 / ZOOM : ZOOM, at);
+        this.zoom = zoomRange(range, event.deltaY < 0 ? 1 / ZOOM : ZOOM, at);
         this.schedule();
       },
       { passive: false },
@@ -184,7 +184,7 @@ export class StatesPane implements Pane {
 
   private range(): Range | null {
     const { span, playhead, clock } = this.model;
-    return shownRange({ span, playhead, live: clock.live, recorded: this.recorded }, this.seconds, this.zoom);
+    return computeShownRange({ span, playhead, live: clock.live, recorded: this.recorded }, this.seconds, this.zoom);
   }
 
   private schedule(): void {

@@ -7,7 +7,7 @@ import type { Model } from "../model/model";
 import type { TableColumn, TableRow, TopicTable } from "../protocol/messages";
 import { download, h, select, setText, shorten } from "../util/dom";
 import * as format from "../util/format";
-import { remember, remembered } from "../util/storage";
+import { remember, loadStored } from "../util/storage";
 
 const COUNTS = ["20", "100", "500"] as const;
 const MAX_CELL = 120;
@@ -24,8 +24,8 @@ export class TablePane implements Pane {
   private readonly lines = h("tbody", { id: "table-rows" });
   private readonly rows = new Map<number, { row: TableRow; element: HTMLElement }>();
   private columns: readonly TableColumn[] = [];
-  private wanted = remembered("table-topic", "").slice(0, MAX_TEXT);
-  private count = remembered("table-count", "100");
+  private wanted = loadStored("table-topic", "").slice(0, MAX_TEXT);
+  private count = loadStored("table-count", "100");
   private isOpen = false;
 
   constructor(private readonly model: Model) {

@@ -14,7 +14,7 @@ export interface LogFilter {
   text: string;
 }
 
-export function passes(entry: LogEntry, { level, node, text }: LogFilter): boolean {
+export function matchesFilter(entry: LogEntry, { level, node, text }: LogFilter): boolean {
   if (LEVELS.indexOf(entry.level) < LEVELS.indexOf(level)) return false;
   if (node && entry.node !== node) return false;
   return !text || `${entry.text}\n${entry.place}`.toLowerCase().includes(text.toLowerCase());

@@ -6,8 +6,8 @@ import type { Model } from "../model/model";
 import type { LogEntry, LogLevel, ProblemReport } from "../protocol/messages";
 import { fillSelect, h, select, setText, shorten } from "../util/dom";
 import * as format from "../util/format";
-import { remember, remembered } from "../util/storage";
-import { lastBefore, LEVELS, passes, type LogFilter } from "./filter";
+import { remember, loadStored } from "../util/storage";
+import { lastBefore, LEVELS, matchesFilter, type LogFilter } from "./filter";
 
 /** As many as the server keeps of a recording. */
 const MAX_ENTRIES = 20_000;
@@ -43,7 +43,7 @@ export class LogPane implements Pane {
   private current = -1;
 
   constructor(private readonly model: Model) {
-    this.filter.level = remembered<LogLevel>("log-level", "info");
+    this.filter.level = loadStored<LogLevel>("log-level", "info");
     if (!LEVELS.includes(this.filter.level)) this.filter.level = "info";
     const level = select(
       "Lowest level",
@@ -114,13 +114,13 @@ export class LogPane implements Pane {
   private add(entries: readonly LogEntry[]): void {
     for (const entry of entries) {
       this.entries.push(entry);
-      if (passes(entry, this.filter)) this.shown.push(entry);
+      if (matchesFilter(entry, this.filter)) this.shown.push(entry);
     }
     const extra = this.entries.length - MAX_ENTRIES;
     if (extra > 0) {
       this.entries.splice(0, extra);
       this.omitted += extra;
-      this.shown = this.entries.filter((entry) => passes(entry, this.filter));
+      this.shown = this.entries.filter((entry) => matchesFilter(entry, this.filter));
     }
     const before = this.names.size;
     for (const { node } of entries) if (this.names.size < MAX_NODES) this.names.add(node);
@@ -129,14 +129,14 @@ export class LogPane implements Pane {
   }
 
   private fillNodes(): void {
-    const names = format.sorted([...this.names]);
+    const names = format.sortNames([...this.names]);
     fillSelect(this.nodes, [["", "all nodes"], ...names.map((name) => [name, name] as const)], this.filter.node);
     if (this.nodes.value !== this.filter.node) this.setFilter({ node: "" });
   }
 
   private setFilter(change: Partial<LogFilter>): void {
     Object.assign(this.filter, change);
-    this.shown = this.entries.filter((entry) => passes(entry, this.filter));
+    this.shown = this.entries.filter((entry) => matchesFilter(entry, this.filter));
     this.follows = true;
     this.schedule();
   }

@@ -8,7 +8,7 @@ import type { InspectedField, Inspection } from "../protocol/messages";
 import { h, icon, iconButton, setText, shorten } from "../util/dom";
 import * as format from "../util/format";
 import { link, linked } from "../util/link";
-import { remember, remembered } from "../util/storage";
+import { remember, loadStored } from "../util/storage";
 import { toast } from "../util/toast";
 import { hasChildren, isOpen, keyOf, visibleRows } from "./rows";
 
@@ -36,7 +36,7 @@ export class MessagePane implements Pane {
   private isOpen = false;
 
   constructor(private readonly model: Model) {
-    this.wanted = (linked("topic")[0] ?? remembered("inspected", "")).slice(0, MAX_TEXT);
+    this.wanted = (linked("topic")[0] ?? loadStored("inspected", "")).slice(0, MAX_TEXT);
     this.topic = new CompletedInput(model, "topic", "Topic to inspect", "/topic", (text) => this.inspect(text));
     this.topic.input.value = this.wanted;
     this.body = h("div", { class: "message" }, this.topic.element, this.facts, this.tree);

@@ -272,7 +272,7 @@ export class Model extends Emitter<ModelEvents> {
   private graphUsers = 0;
 
   /** Requests the graph of nodes and topics for one more part of the page, or for one less. */
-  useGraph(used: boolean): void {
+  countGraphUsers(used: boolean): void {
     this.graphUsers = Math.max(0, this.graphUsers + (used ? 1 : -1));
     if (used || this.graphUsers === 0) this.send({ type: "graph", shown: used });
   }
@@ -302,7 +302,7 @@ export class Model extends Emitter<ModelEvents> {
   }
 
   /** Whether the frame update of the last seek has not arrived yet. */
-  get seeking(): boolean {
+  get isSeeking(): boolean {
     return this.seek !== null;
   }
 

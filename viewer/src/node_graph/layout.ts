@@ -103,9 +103,9 @@ export function arrange(graph: NodeGraph, options: GraphOptions): GraphLayout {
   for (const arrow of arrows)
     arrow.points = (dag.edge(arrow.from, arrow.to) as { points: { x: number; y: number }[] }).points;
   const { width = 0, height = 0 } = dag.graph() as { width?: number; height?: number };
-  return { boxes: [...boxes.values()], arrows, omitted, width: finite(width), height: finite(height) };
+  return { boxes: [...boxes.values()], arrows, omitted, width: finiteOrZero(width), height: finiteOrZero(height) };
 }
 
-function finite(size: number): number {
+function finiteOrZero(size: number): number {
   return Number.isFinite(size) ? Math.max(size, 1) : 1;
 }

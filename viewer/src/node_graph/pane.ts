@@ -5,7 +5,7 @@ import type { Pane } from "../dock/dock";
 import type { Model } from "../model/model";
 import type { NodeGraph } from "../protocol/messages";
 import { h, iconButton, setText, shorten } from "../util/dom";
-import { remember, remembered } from "../util/storage";
+import { remember, loadStored } from "../util/storage";
 import { arrange, type Arrow, type Box } from "./layout";
 
 const SVG = "http://www.w3.org/2000/svg";
@@ -25,7 +25,7 @@ export class GraphPane implements Pane {
   private readonly search = h("input", { type: "search", placeholder: "Filter", aria: { label: "Node or topic" } });
   private graph: NodeGraph | null = null;
   private isOpen = false;
-  private infrastructure = remembered("graph-infrastructure", false);
+  private infrastructure = loadStored("graph-infrastructure", false);
   private size = { width: 1, height: 1 };
   private view = { x: 0, y: 0, scale: 1 };
   /** Whether the user has moved or zoomed the graph. */
@@ -65,14 +65,14 @@ export class GraphPane implements Pane {
   open(): void {
     this.isOpen = true;
     this.graph = null;
-    this.model.useGraph(true);
+    this.model.countGraphUsers(true);
   }
 
   close(): void {
     this.isOpen = false;
     this.graph = null;
     this.content.replaceChildren();
-    this.model.useGraph(false);
+    this.model.countGraphUsers(false);
   }
 
   private request(): void {

@@ -66,7 +66,7 @@ export class AddDisplay {
       event.preventDefault(); // The button that has opened the dialog gets the focus back.
       this.list.querySelector<HTMLButtonElement>("button")?.click();
     });
-    this.dialog.addEventListener("close", () => this.model.useGraph(false));
+    this.dialog.addEventListener("close", () => this.model.countGraphUsers(false));
     model.on("topics", () => this.dialog.open && this.fill());
     model.on("graph", (graph) => {
       this.graph = graph;
@@ -77,7 +77,7 @@ export class AddDisplay {
   show(): void {
     if (this.dialog.open) return;
     this.search.value = "";
-    this.model.useGraph(true);
+    this.model.countGraphUsers(true);
     this.fill();
     this.dialog.showModal();
     this.search.focus();
@@ -104,7 +104,7 @@ export class AddDisplay {
     const add = (title: string, row: Row): void => void groups.set(title, [...(groups.get(title) ?? []), row]);
     const topics = this.model.topics.map(rowOf);
     for (const row of topics) if (row.kind) add(row.kind, row);
-    groups.set("Without a topic", WITHOUT_TOPIC.map(withoutTopic));
+    groups.set("Without a topic", WITHOUT_TOPIC.map(rowWithoutTopic));
     for (const row of topics) if (!row.kind) add(INSPECTED, row);
     return groups;
   }
@@ -113,7 +113,7 @@ export class AddDisplay {
   private byNode(): Map<string, Row[]> {
     const { nodes = [], topics: known = [], links = [] } = this.graph ?? {};
     const rows = new Map(this.model.topics.map((topic) => [topic.topic, rowOf(topic)]));
-    const groups = new Map(format.sorted(nodes.map(({ name }) => name)).map((name) => [name, [] as Row[]]));
+    const groups = new Map(format.sortNames(nodes.map(({ name }) => name)).map((name) => [name, [] as Row[]]));
     for (const { node, topic, publishes } of links) {
       const row = rows.get(known[topic]?.topic ?? "");
       const group = groups.get(nodes[node]?.name ?? "");
@@ -147,6 +147,6 @@ function rowOf({ topic, type, display }: DisplayTopic): Row {
   return { kind: displayClass(display) ?? "", topic, type };
 }
 
-function withoutTopic(kind: string): Row {
+function rowWithoutTopic(kind: string): Row {
   return { kind, topic: null, type: "" };
 }

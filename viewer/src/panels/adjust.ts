@@ -3,7 +3,7 @@
 
 import { copyText, h, iconButton, setText, shorten } from "../util/dom";
 import * as format from "../util/format";
-import { distance, relative, rpyDegrees } from "../util/math";
+import { distance, relativePose, rpyDegrees } from "../util/math";
 import type { Model } from "../model/model";
 import type { GizmoMode } from "../scene/gizmo";
 import { staticCommands } from "../util/static_commands";
@@ -102,7 +102,7 @@ export class AdjustPanel {
     if (!current) return;
     const { parent, child, pose, original } = current;
     const moved = format.meters(distance(original.position, pose.position));
-    const angles = rpyDegrees(relative(original, pose).quaternion).map((angle) => format.fixed(angle, 2));
+    const angles = rpyDegrees(relativePose(original, pose).quaternion).map((angle) => format.formatFixed(angle, 2));
     setText(
       this.change,
       `Moved ${moved}, rotated ${angles.join("°, ")}°. Other pages and nodes see it when published.`,

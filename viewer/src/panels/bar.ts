@@ -4,7 +4,7 @@
 import { fillSelect, h, iconButton, select, setText, shorten } from "../util/dom";
 import * as format from "../util/format";
 import type { Model } from "../model/model";
-import { remember, remembered } from "../util/storage";
+import { remember, loadStored } from "../util/storage";
 
 /** Seconds without data after which the page no longer says "Live". */
 const MAX_SILENCE_S = 3;
@@ -74,17 +74,17 @@ export class Bar {
       const title = shorten(hello.title, 200);
       setText(this.title, title);
       document.title = title ? `${title} – coframe` : "coframe";
-      this.remembered = this.chosen || (hello.fixed_is_given ? "" : remembered("fixed", ""));
+      this.remembered = this.chosen || (hello.fixed_is_given ? "" : loadStored("fixed", ""));
     });
-    model.on("tree", () => this.refill());
-    model.on("fixed", () => this.refill());
+    model.on("tree", () => this.rebuildOptions());
+    model.on("fixed", () => this.rebuildOptions());
     for (const event of ["connected", "silent", "pulse", "clock", "hello"] as const)
       model.on(event, () => this.showState());
     this.showState();
-    this.refill();
+    this.rebuildOptions();
   }
 
-  private refill(): void {
+  private rebuildOptions(): void {
     const { forest, fixed } = this.model;
     if (this.remembered && this.remembered !== fixed && forest.index.has(this.remembered)) {
       const frame = this.remembered;
@@ -92,7 +92,7 @@ export class Bar {
       this.model.setFixed(frame);
       return;
     }
-    const names = format.sorted(forest.frames.map((frame) => frame.name));
+    const names = format.sortNames(forest.frames.map((frame) => frame.name));
     if (fixed && !forest.index.has(fixed)) names.unshift(fixed);
     const key = JSON.stringify(names);
     if (key !== this.names) {

@@ -57,7 +57,7 @@ export class DisplaysPanel {
 
   /** Says how many topics are not displayed. */
   private showOmitted(): void {
-    const { omitted } = this.displays;
+    const { omittedTopics: omitted } = this.displays;
     this.omitted.hidden = omitted.length === 0;
     const topics = omitted.length === 1 ? "1 topic is" : `${omitted.length} topics are`;
     setText(this.omitted, `${topics} not displayed`);

@@ -96,12 +96,12 @@ export class FindingsPanel {
           { type: "button", class: "small", on: { click: () => this.model.send({ type: "explain", code }) } },
           `About ${code}`,
         ),
-        first === null ? null : this.firstButton(first),
+        first === null ? null : this.makeTimeButton(first),
       ),
     );
   }
 
-  private firstButton(first: number): HTMLElement {
+  private makeTimeButton(first: number): HTMLElement {
     const act = (): void => this.model.setClock({ live: false, playing: false }, first);
     return h(
       "button",
@@ -156,12 +156,12 @@ function block(text: string): HTMLElement {
       ...text
         .slice(2)
         .split(/\n- /)
-        .map((item) => h("li", {}, ...inline(item))),
+        .map((item) => h("li", {}, ...renderInlineCode(item))),
     );
-  return h("p", {}, ...inline(text));
+  return h("p", {}, ...renderInlineCode(text));
 }
 
 /** Converts text between backticks to code elements. */
-function inline(text: string): (string | HTMLElement)[] {
+function renderInlineCode(text: string): (string | HTMLElement)[] {
   return text.split("`").map((part, i) => (i % 2 ? h("code", {}, part) : part));
 }

@@ -74,7 +74,7 @@ export class Inspector {
         "div",
         { class: "block buttons" },
         h("button", { type: "button", class: "small", on: { click: () => this.useAsFixed() } }, "Use as Fixed Frame"),
-        h("button", { type: "button", class: "small", on: { click: () => this.swap() } }, "Swap frames"),
+        h("button", { type: "button", class: "small", on: { click: () => this.swapFrames() } }, "Swap frames"),
       ),
     );
     model.on("selection", () => this.open());
@@ -87,7 +87,7 @@ export class Inspector {
     });
   }
 
-  private get target(): string {
+  private get targetFrame(): string {
     return this.model.selection.reference ?? this.model.fixed;
   }
 
@@ -103,7 +103,7 @@ export class Inspector {
 
   private fillReference(): void {
     const { forest, selection } = this.model;
-    const names = format.sorted(forest.frames.map((frame) => frame.name));
+    const names = format.sortNames(forest.frames.map((frame) => frame.name));
     const key = JSON.stringify(names);
     if (key !== this.names) {
       this.names = key;
@@ -124,12 +124,12 @@ export class Inspector {
       return;
     this.requested = time;
     this.waiting = true;
-    this.model.send({ type: "relate", id: ++this.requestId, target: this.target, source: frame });
+    this.model.send({ type: "relate", id: ++this.requestId, target: this.targetFrame, source: frame });
   }
 
   private receive(relation: Relation): void {
     if (relation.id === this.requestId) this.waiting = false;
-    if (relation.source !== this.model.selection.frame || relation.target !== this.target) return;
+    if (relation.source !== this.model.selection.frame || relation.target !== this.targetFrame) return;
     this.relation = relation;
     const t = relation.translation;
     setText(this.distance, t ? format.meters(Math.hypot(...t)) : "–");
@@ -147,7 +147,7 @@ export class Inspector {
   }
 
   private fill(name: keyof Inspector["blocks"], values: number[] | null, digits: number): void {
-    this.blocks[name].forEach((cell, i) => setText(cell, values ? format.fixed(values[i] ?? NaN, digits) : "–"));
+    this.blocks[name].forEach((cell, i) => setText(cell, values ? format.formatFixed(values[i] ?? NaN, digits) : "–"));
   }
 
   private showChain(relation: Relation): void {
@@ -189,11 +189,11 @@ export class Inspector {
             .map((at) =>
               numbers
                 .slice(at, at + 4)
-                .map(format.plain)
+                .map(format.formatPlain)
                 .join(" "),
             )
             .join("\n")
-        : numbers.map(format.plain).join(" ");
+        : numbers.map(format.formatPlain).join(" ");
     };
     this.results.append(h("div", { class: "block" }, this.head(title, clipboardText), row));
     return cells.map((cell) => cell.lastElementChild as HTMLElement);
@@ -218,8 +218,8 @@ export class Inspector {
     if (this.model.selection.frame) this.model.setFixed(this.model.selection.frame);
   }
 
-  private swap(): void {
+  private swapFrames(): void {
     const { frame } = this.model.selection;
-    if (frame) this.model.select(this.target, frame);
+    if (frame) this.model.select(this.targetFrame, frame);
   }
 }

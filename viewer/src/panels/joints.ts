@@ -84,7 +84,7 @@ export class JointsPanel {
       h(
         "div",
         { class: "buttons" },
-        h("button", { type: "button", class: "small", on: { click: () => set(neutral) } }, "Center"),
+        h("button", { type: "button", class: "small", on: { click: () => set(neutralPosition) } }, "Center"),
         h("button", { type: "button", class: "small", on: { click: () => set(random) } }, "Random"),
         h(
           "button",
@@ -177,7 +177,7 @@ function limits(joint: RobotJoint): [number, number] {
 }
 
 /** The neutral position, as in joint_state_publisher_gui: zero if the limits permit it, otherwise their middle. */
-function neutral(joint: RobotJoint): number {
+function neutralPosition(joint: RobotJoint): number {
   const [lower, upper] = limits(joint);
   return lower <= 0 && upper >= 0 ? 0 : (lower + upper) / 2;
 }

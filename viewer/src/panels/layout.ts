@@ -2,7 +2,7 @@
 /** Which panels are open, where and how large: the settings of the last session, which saved views contain too. */
 
 import type { JsonObject } from "../protocol/messages";
-import { remember, remembered } from "../util/storage";
+import { remember, loadStored } from "../util/storage";
 
 const DEFAULTS: JsonObject = {
   "panel-shown": true,
@@ -15,7 +15,7 @@ const DEFAULTS: JsonObject = {
 };
 
 export function currentLayout(): JsonObject {
-  return Object.fromEntries(Object.entries(DEFAULTS).map(([key, value]) => [key, remembered(key, value)]));
+  return Object.fromEntries(Object.entries(DEFAULTS).map(([key, value]) => [key, loadStored(key, value)]));
 }
 
 /** Stores a layout. The panels read it when they are restored. */

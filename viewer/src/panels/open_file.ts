@@ -59,7 +59,7 @@ export class FileOpener {
     document.body.append(this.dialog, this.input, this.drop, this.progress);
     this.listen();
     model.on("hello", () => this.showRecent());
-    model.on("upload", (answer) => void this.continue(answer));
+    model.on("upload", (answer) => void this.sendNextPart(answer));
     model.on("connected", (connected) => {
       if (!connected) this.end();
     });
@@ -103,7 +103,7 @@ export class FileOpener {
   }
 
   /** Sends the next part of the files after the server has stored the previous one. */
-  private async continue({ state, received, total, text, hint }: UploadProgress): Promise<void> {
+  private async sendNextPart({ state, received, total, text, hint }: UploadProgress): Promise<void> {
     const { sending } = this;
     if (!sending) return;
     if (state !== "receiving") {
@@ -115,7 +115,7 @@ export class FileOpener {
     this.progress.hidden = false;
     const part = sending.content.slice(received, received + PART_BYTES);
     const isLast = received + part.size >= total;
-    const share = format.fixed((100 * (received + part.size)) / Math.max(1, total), 0);
+    const share = format.formatFixed((100 * (received + part.size)) / Math.max(1, total), 0);
     setText(this.progress, isLast ? `Reading ${sending.names}…` : `Opening ${sending.names}: ${share} %`);
     try {
       this.sendBytes(await part.arrayBuffer());

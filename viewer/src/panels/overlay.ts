@@ -170,7 +170,7 @@ export class Overlay {
     if (connected) {
       clearTimeout(this.noticeTimer);
       this.noticeTimer = 0;
-      const text = silent ? SILENT : this.view.renderer.lost ? NO_GRAPHICS : "";
+      const text = silent ? SILENT : this.view.renderer.isContextLost ? NO_GRAPHICS : "";
       this.notice.hidden = !text;
       if (text) setText(this.notice, text);
       return;

@@ -123,7 +123,7 @@ export class PartsPanel {
     const curves = this.live ? (this.answer?.curves ?? []) : [];
     return [
       button("Look at it", () => this.view.lookAt(part.position)),
-      button("Copy position", () => void copyText(part.position.map(format.plain).join(" ")).then(confirm)),
+      button("Copy position", () => void copyText(part.position.map(format.formatPlain).join(" ")).then(confirm)),
       ...(topic && this.live ? [button("Inspect", () => this.model.emit("inspect", topic), `Inspect ${topic}`)] : []),
       ...(this.model.forest.index.has(frame) ? [button("Select frame", () => this.model.select(frame), frame)] : []),
       ...curves.map((curve) => button(`Plot ${shorten(curve, 48)}`, () => this.model.emit("plot", curve), curve)),
@@ -139,5 +139,5 @@ function confirm(ok: boolean): void {
 }
 
 function coordinates({ position }: PickedPart): string {
-  return position.map((value) => format.fixed(value, 3)).join(", ");
+  return position.map((value) => format.formatFixed(value, 3)).join(", ");
 }

@@ -8,7 +8,7 @@ import type { Model } from "../model/model";
 import type { ToolSettings } from "../model/tools";
 import type { JsonObject, RvizConfiguration, RvizView } from "../protocol/messages";
 import type { Theme } from "../util/theme";
-import { remember, remembered } from "../util/storage";
+import { remember, loadStored } from "../util/storage";
 import { toast } from "../util/toast";
 import type { View } from "../scene/view";
 
@@ -33,7 +33,7 @@ export class RvizPanel {
   private name = "coframe.rviz";
   private started = false;
   /** The text of the file that was opened, also in the last session with these displays; "" if none was. */
-  private source = remembered("rviz", "");
+  private source = loadStored("rviz", "");
   private loading: string | null = null;
   /** Whether the displays are those of a file. */
   private loaded = this.source !== "";

@@ -2,7 +2,7 @@
 /** The side panel: tabs, an adjustable width, can be hidden. On a phone it slides over the scene. */
 
 import { h, iconButton } from "../util/dom";
-import { remember, remembered } from "../util/storage";
+import { remember, loadStored } from "../util/storage";
 
 const MIN_WIDTH_PX = 260;
 const MAX_WIDTH_PX = 640;
@@ -68,9 +68,9 @@ export class Panel {
 
   /** Shows the panel as in the last session or in a saved view. */
   restore(): void {
-    this.setWidth(remembered("panel-width", 340));
-    this.show(!matchMedia(PHONE).matches && remembered("panel-shown", true));
-    this.choose(remembered("tab", this.tabs[0]?.id ?? ""));
+    this.setWidth(loadStored("panel-width", 340));
+    this.show(!matchMedia(PHONE).matches && loadStored("panel-shown", true));
+    this.choose(loadStored("tab", this.tabs[0]?.id ?? ""));
   }
 
   choose(id: string): void {

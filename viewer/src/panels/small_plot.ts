@@ -33,7 +33,7 @@ export function smallPlot(content: string): HTMLElement {
   const svg = document.createElementNS(SVG, "svg");
   svg.setAttribute("viewBox", `0 0 ${WIDTH} ${HEIGHT}`);
   svg.setAttribute("role", "img");
-  svg.setAttribute("aria-label", `${names.join(", ")} from ${plain(low)} to ${plain(high)}`);
+  svg.setAttribute("aria-label", `${names.join(", ")} from ${formatPlain(low)} to ${formatPlain(high)}`);
   names.forEach((name, i) => {
     const path = document.createElementNS(SVG, "path");
     path.setAttribute("d", pathOf(x, curves[name] ?? [], left, right, low, high));
@@ -51,10 +51,10 @@ export function smallPlot(content: string): HTMLElement {
   return h(
     "figure",
     {},
-    h("div", { class: "plot-range numbers" }, plain(high)),
+    h("div", { class: "plot-range numbers" }, formatPlain(high)),
     svg as unknown as HTMLElement,
-    h("div", { class: "plot-range numbers" }, plain(low)),
-    h("div", { class: "plot-range numbers" }, `${plain(left)} to ${plain(right)} ${shorten(label, 60)}`),
+    h("div", { class: "plot-range numbers" }, formatPlain(low)),
+    h("div", { class: "plot-range numbers" }, `${formatPlain(left)} to ${formatPlain(right)} ${shorten(label, 60)}`),
     h("figcaption", {}, ...legend),
   );
 }
@@ -95,6 +95,6 @@ function color(i: number): string {
   return COLORS[i % COLORS.length] as string;
 }
 
-function plain(value: number): string {
+function formatPlain(value: number): string {
   return String(Number(value.toPrecision(5)));
 }

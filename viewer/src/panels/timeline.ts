@@ -6,7 +6,7 @@ import * as format from "../util/format";
 import type { Model } from "../model/model";
 import type { Timeline as TimelineMessage } from "../protocol/messages";
 import { bars, decodeEdges, drawRows, prepare, total, type Colors, type Edge } from "./sparklines";
-import { remember, remembered } from "../util/storage";
+import { remember, loadStored } from "../util/storage";
 import { TimesDialog } from "./times";
 
 const SPEEDS = ["0.1", "0.25", "0.5", "1", "2", "5", "10"] as const;
@@ -65,7 +65,7 @@ export class Timeline {
       "wide-only",
     );
     this.sparklinesButton = iconButton("chevron", "Rates over time (t)", () => this.toggleSparklines(), "wide-only");
-    this.sparklines = h("div", { class: "sparklines", hidden: !remembered("sparks", false) }, this.rows);
+    this.sparklines = h("div", { class: "sparklines", hidden: !loadStored("sparks", false) }, this.rows);
     const speed = select(
       "Speed",
       SPEEDS.map((s) => [s, `${s}×`] as const),
@@ -90,7 +90,7 @@ export class Timeline {
       this.sparklines,
     );
     this.listen();
-    model.on("frames", () => this.follow());
+    model.on("frames", () => this.followPlayhead());
     model.on("stats", () => this.redraw());
     model.on("clock", () => this.updateButtons());
     model.on("hello", () => this.start());
@@ -123,14 +123,14 @@ export class Timeline {
   }
 
   /** The span that the timeline shows. */
-  private get shown(): [number, number] | null {
+  private get shownSpan(): [number, number] | null {
     const { span } = this.model;
     return this.zoomed && span && !this.model.clock.live ? this.zoomed : span;
   }
 
   /** Shows a larger or smaller part of the span around a time. */
   private zoom(at: number, factor: number): void {
-    const [span, shown] = [this.model.span, this.shown];
+    const [span, shown] = [this.model.span, this.shownSpan];
     if (!span || !shown || this.model.clock.live) return;
     const from = Math.max(span[0], at - (at - shown[0]) * factor);
     const to = Math.min(span[1], at + (shown[1] - at) * factor);
@@ -138,7 +138,7 @@ export class Timeline {
     this.zoomed = from <= span[0] && to >= span[1] ? null : [from, to];
     this.requested = 0;
     this.redraw();
-    this.follow();
+    this.followPlayhead();
   }
 
   /** Moves the playhead by seconds. */
@@ -187,12 +187,12 @@ export class Timeline {
     this.redraw();
   }
 
-  private follow(): void {
+  private followPlayhead(): void {
     const update = this.model.frameUpdate;
     const span = this.model.span;
     if (!update || !span) return;
     const now = performance.now();
-    const [from, to] = this.shown ?? span;
+    const [from, to] = this.shownSpan ?? span;
     const { message } = this;
     const isShown = this.zoomed === null || (message?.from === Math.round(from) && message.to === Math.round(to));
     const current = message?.revision === this.model.forest.revision && isShown;
@@ -206,7 +206,7 @@ export class Timeline {
   }
 
   private placePlayhead(): void {
-    const span = this.shown;
+    const span = this.shownSpan;
     const at = this.dragging ?? this.model.frameUpdate?.time ?? NaN;
     const part = span && span[1] > span[0] ? (at - span[0]) / (span[1] - span[0]) : NaN;
     const isOutside = this.zoomed !== null && !(part >= 0 && part <= 1);
@@ -254,7 +254,7 @@ export class Timeline {
     this.placePlayhead();
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement ?? this.canvas;
     const context = prepare(this.canvas, width, height);
-    const span = this.shown;
+    const span = this.shownSpan;
     if (!context || width === 0) return;
     const colors = this.colors();
     context.fillStyle = getComputedStyle(document.documentElement).getPropertyValue("--raised");
@@ -297,7 +297,7 @@ export class Timeline {
   private listen(): void {
     const { canvas } = this;
     const timeAt = (event: PointerEvent): number | null => {
-      const span = this.shown;
+      const span = this.shownSpan;
       if (!span) return null;
       const bounds = canvas.getBoundingClientRect();
       const part = Math.max(0, Math.min(1, (event.clientX - bounds.left) / bounds.width));
@@ -307,7 +307,7 @@ export class Timeline {
       "wheel",
       (event) => {
         const bounds = canvas.getBoundingClientRect();
-        const span = this.shown;
+        const span = this.shownSpan;
         if (!span) return;
         event.preventDefault();
         const at = span[0] + ((event.clientX - bounds.left) / bounds.width) * (span[1] - span[0]);

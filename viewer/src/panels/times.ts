@@ -4,7 +4,7 @@
 import type { Model } from "../model/model";
 import { h, iconButton, shorten } from "../util/dom";
 import * as format from "../util/format";
-import { remember, remembered } from "../util/storage";
+import { remember, loadStored } from "../util/storage";
 import { parseTime } from "../util/times";
 import { toast } from "../util/toast";
 
@@ -85,15 +85,15 @@ export class TimesDialog {
 
   /** The bookmarks of the source that is shown: their times relative to the origin, and their names. */
   get bookmarks(): { at: number; name: string }[] {
-    return this.stored.map(({ stamp, name }) => ({ at: Number(BigInt(stamp) - this.model.origin), name }));
+    return this.storedBookmarks.map(({ stamp, name }) => ({ at: Number(BigInt(stamp) - this.model.origin), name }));
   }
 
   private get key(): string {
     return `bookmarks ${(this.model.hello?.title ?? "").slice(0, 200)}`;
   }
 
-  private get stored(): Bookmark[] {
-    const found = remembered<Bookmark[]>(this.key, []);
+  private get storedBookmarks(): Bookmark[] {
+    const found = loadStored<Bookmark[]>(this.key, []);
     return Array.isArray(found)
       ? found.filter(({ stamp, name }) => /^\d+$/.test(stamp) && typeof name === "string")
       : [];
@@ -115,7 +115,7 @@ export class TimesDialog {
     if (!Number.isFinite(at)) return;
     const stamp = String(this.model.origin + BigInt(Math.round(at)));
     const name = this.name.value.trim() || format.stamp(this.model.origin, at);
-    this.store([...this.stored, { stamp, name }].slice(-MAX_BOOKMARKS));
+    this.store([...this.storedBookmarks, { stamp, name }].slice(-MAX_BOOKMARKS));
     this.name.value = "";
   }
 
@@ -127,7 +127,7 @@ export class TimesDialog {
 
   private fill(): void {
     this.list.replaceChildren(
-      ...this.stored.map((one, i) =>
+      ...this.storedBookmarks.map((one, i) =>
         h(
           "li",
           {},
@@ -146,7 +146,7 @@ export class TimesDialog {
             shorten(one.name, MAX_NAME),
           ),
           iconButton("close", `Delete ${shorten(one.name, MAX_NAME)}`, () =>
-            this.store(this.stored.filter((_, k) => k !== i)),
+            this.store(this.storedBookmarks.filter((_, k) => k !== i)),
           ),
         ),
       ),

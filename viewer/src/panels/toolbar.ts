@@ -6,7 +6,7 @@ import * as format from "../util/format";
 import type { Model } from "../model/model";
 import { PUBLISHING_TOOLS, type PublishingTool, type ToolSettings } from "../model/tools";
 import type { Vector } from "../protocol/messages";
-import { publishes, type Tool } from "../scene/tools";
+import { isPublishingTool, type Tool } from "../scene/tools";
 import { toast } from "../util/toast";
 import type { View } from "../scene/view";
 
@@ -73,7 +73,7 @@ export class Toolbar {
     const { fixed } = this.model;
     const topic = this.settings.topic(tool);
     const covariance = tool === "estimate" ? { covariance: this.settings.variances } : {};
-    const degrees = format.fixed((yaw * 180) / Math.PI, 1);
+    const degrees = format.formatFixed((yaw * 180) / Math.PI, 1);
     this.sent = { topic, what: `${coordinates(position)}, yaw ${degrees}° in ${fixed}` };
     this.model.send({ type: "publish_pose", topic, frame: fixed, position, yaw, ...covariance });
   }
@@ -87,15 +87,15 @@ export class Toolbar {
 
   private setTopic(): void {
     const { active } = this.view.tools;
-    if (!publishes(active)) return;
+    if (!isPublishingTool(active)) return;
     this.settings.setTopic(active, this.topic.value.trim());
     this.topic.value = this.settings.topic(active);
     this.updateButtons();
   }
 
   private show(tool: Tool | null): void {
-    this.hint.hidden = !publishes(tool);
-    if (publishes(tool)) {
+    this.hint.hidden = !isPublishingTool(tool);
+    if (isPublishingTool(tool)) {
       const { title } = PUBLISHING_TOOLS[tool];
       setText(this.instruction, `${title}: ${INSTRUCTIONS[tool]}. Publishes in ${shorten(this.model.fixed, 40)}`);
       this.topic.value = this.settings.topic(tool);
@@ -116,5 +116,5 @@ export class Toolbar {
 }
 
 function coordinates(point: Vector): string {
-  return (["x", "y", "z"] as const).map((name, k) => `${name} ${format.fixed(point[k] as number, 3)}`).join(", ");
+  return (["x", "y", "z"] as const).map((name, k) => `${name} ${format.formatFixed(point[k] as number, 3)}`).join(", ");
 }

@@ -115,7 +115,7 @@ export class TreePanel {
     const { forest } = this.model;
     this.model.updateSolo();
     const text = this.search.value.trim().toLowerCase();
-    const kept = text ? this.matching(text) : null;
+    const kept = text ? this.findMatches(text) : null;
     this.rows = [];
     const several = forest.roots.length > 1;
     const walk = (first: number): void => {
@@ -139,7 +139,7 @@ export class TreePanel {
   }
 
   /** The frames whose names contain a text, with their ancestors. */
-  private matching(text: string): Set<number> {
+  private findMatches(text: string): Set<number> {
     const { forest } = this.model;
     const kept = new Set<number>();
     forest.frames.forEach((frame, i) => {

@@ -78,7 +78,7 @@ export class Undo {
   private camera(): string {
     const round = (_key: string, value: unknown): unknown =>
       typeof value === "number" ? Number(value.toPrecision(6)) : value;
-    return JSON.stringify(this.view.wholeView, round);
+    return JSON.stringify(this.view.savedView, round);
   }
 
   /** What happens without the user, such as a new topic or the first fit of the camera, is not a step. */

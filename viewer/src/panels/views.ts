@@ -7,7 +7,7 @@ import type { View as CameraView } from "../scene/camera";
 import type { View } from "../scene/view";
 import { copyText, h, iconButton, shorten } from "../util/dom";
 import { link, linked } from "../util/link";
-import { remember, remembered } from "../util/storage";
+import { remember, loadStored } from "../util/storage";
 import { toast } from "../util/toast";
 import { currentLayout, storeLayout } from "./layout";
 
@@ -43,7 +43,7 @@ export class ViewsPanel {
     private readonly view: View,
     private readonly restoreLayout: () => void,
   ) {
-    const saved = remembered<SavedView[]>("views", []);
+    const saved = loadStored<SavedView[]>("views", []);
     this.saved = Array.isArray(saved) ? saved.filter((one) => isView(one.view)) : [];
     this.name.setAttribute("aria-label", "Name of the view");
     const button = (text: string, act: () => void): HTMLElement =>
@@ -119,7 +119,7 @@ export class ViewsPanel {
   }
 
   private get current(): CameraView {
-    return this.view.wholeView;
+    return this.view.savedView;
   }
 
   private apply(view: CameraView): void {

@@ -110,7 +110,7 @@ export class WidgetRow {
     const range = h("input", { type: "range", aria: { label: widget.label }, ...limits(widget) });
     const { element, show } = this.numberField(widget);
     range.addEventListener("input", () => {
-      element.value = shown(range.valueAsNumber);
+      element.value = formatNumber(range.valueAsNumber);
       this.use({ number: range.valueAsNumber });
     });
     element.addEventListener("input", () => (range.value = element.value));
@@ -134,7 +134,7 @@ export class WidgetRow {
       if (Number.isFinite(element.valueAsNumber)) this.use({ number: element.valueAsNumber });
       else this.controls.show(this.widget);
     });
-    return { element, show: ({ number }) => unlessTyping(element, shown(number ?? 0)) };
+    return { element, show: ({ number }) => setUnlessTyping(element, formatNumber(number ?? 0)) };
   }
 
   private dropdown(): Controls {
@@ -160,7 +160,7 @@ export class WidgetRow {
   private text(): Controls {
     const element = h("input", { type: "text", maxlength: "1000", autocomplete: "off" });
     element.addEventListener("change", () => this.use({ text: element.value }));
-    return { elements: [element], show: ({ text }) => unlessTyping(element, text ?? "") };
+    return { elements: [element], show: ({ text }) => setUnlessTyping(element, text ?? "") };
   }
 
   private checkbox(): Controls {
@@ -196,7 +196,7 @@ function plot(): Controls {
 }
 
 /** Sets the value of a field, unless the user has begun to change it. */
-function unlessTyping(element: HTMLInputElement, value: string): void {
+function setUnlessTyping(element: HTMLInputElement, value: string): void {
   const typing = document.activeElement === element && element.value !== element.defaultValue;
   if (typing) return;
   element.value = value;
@@ -212,6 +212,6 @@ function limits({ lower, upper, step }: Widget): { min?: string; max?: string; s
 }
 
 /** A number without the digits that only binary fractions have. */
-function shown(value: number): string {
+function formatNumber(value: number): string {
   return String(Number(value.toPrecision(12)));
 }

@@ -3,7 +3,7 @@
 
 import uPlot from "uplot";
 import { h } from "../util/dom";
-import { fixed } from "../util/format";
+import { formatFixed } from "../util/format";
 import type { Curve } from "./curve";
 import type { Range } from "./range";
 
@@ -82,7 +82,7 @@ export class Chart {
         hooks: {
           draw: [(plot) => this.drawPlayhead(plot, style.cursor)],
           setSelect: [(plot) => this.select(plot)],
-          setCursor: [(plot) => this.hover(plot)],
+          setCursor: [(plot) => this.notifyHover(plot)],
         },
       },
       [[], ...curves.map(() => [])],
@@ -143,7 +143,7 @@ export class Chart {
     this.events.zoom(range);
   }
 
-  private hover(plot: uPlot): void {
+  private notifyHover(plot: uPlot): void {
     const { left } = plot.cursor;
     this.events.hover(left === undefined || left < 0 ? null : plot.posToVal(left, "x") * 1e9);
   }
@@ -170,7 +170,7 @@ function valueRange(_: uPlot, min: number | null, max: number | null): uPlot.Ran
 export function valueText(value: number): string {
   if (!Number.isFinite(value)) return "–";
   const size = Math.abs(value);
-  if (Number.isInteger(value) && size >= 1000 && size < 1e15) return fixed(value, 0);
+  if (Number.isInteger(value) && size >= 1000 && size < 1e15) return formatFixed(value, 0);
   if (size !== 0 && (size >= 1e6 || size < 1e-4)) return value.toExponential(3).replace("-", "−");
-  return fixed(value, size >= 1000 ? 1 : 4);
+  return formatFixed(value, size >= 1000 ? 1 : 4);
 }

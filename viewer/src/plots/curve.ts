@@ -29,11 +29,11 @@ export class Curve {
     return this.count;
   }
 
-  get first(): number {
+  get firstTime(): number {
     return this.count ? (this.times[0] as number) : NaN;
   }
 
-  get last(): number {
+  get lastTime(): number {
     return this.count ? (this.times[this.count - 1] as number) : NaN;
   }
 
@@ -43,8 +43,8 @@ export class Curve {
     if (total > this.times.length) {
       const size = Math.min(2 * CAPACITY, Math.max(total, 2 * this.times.length));
       const dropped = Math.max(0, total > size ? total - CAPACITY : 0);
-      this.times = grown(this.times.subarray(dropped, this.count), size);
-      this.values = grown(this.values.subarray(dropped, this.count), size);
+      this.times = enlarge(this.times.subarray(dropped, this.count), size);
+      this.values = enlarge(this.values.subarray(dropped, this.count), size);
       this.count -= dropped;
     }
     const room = this.times.length - this.count;
@@ -55,15 +55,15 @@ export class Curve {
 
   /** The value at the last point at or before a time in nanoseconds. */
   valueAt(time: number): number {
-    const i = this.after(time) - 1;
+    const i = this.countUpTo(time) - 1;
     return i < 0 ? NaN : (this.values[i] as number);
   }
 
   /** The points between two times, and one more on each side; of many, the extremes of equal parts. */
   table(from: number, to: number, most: number): Table {
-    const begin = Math.max(0, this.after(from) - 1);
-    const end = Math.min(this.count, this.after(to) + 1);
-    const indices = extremes(this.values, begin, end, most);
+    const begin = Math.max(0, this.countUpTo(from) - 1);
+    const end = Math.min(this.count, this.countUpTo(to) + 1);
+    const indices = findExtremes(this.values, begin, end, most);
     const x: number[] = [];
     const y: (number | null)[] = [];
     for (const i of indices) {
@@ -75,7 +75,7 @@ export class Curve {
   }
 
   /** The number of points at or before a time. */
-  private after(time: number): number {
+  private countUpTo(time: number): number {
     let [low, high] = [0, this.count];
     while (low < high) {
       const middle = (low + high) >>> 1;
@@ -86,14 +86,14 @@ export class Curve {
   }
 }
 
-function grown(values: Float64Array, size: number): Float64Array<ArrayBuffer> {
+function enlarge(values: Float64Array, size: number): Float64Array<ArrayBuffer> {
   const larger = new Float64Array(size);
   larger.set(values);
   return larger;
 }
 
 /** The indices of the smallest and the largest value of each of many equal parts, so that no peak is lost. */
-export function extremes(values: ArrayLike<number>, begin: number, end: number, most: number): number[] {
+export function findExtremes(values: ArrayLike<number>, begin: number, end: number, most: number): number[] {
   const indices: number[] = [];
   if (end - begin <= most) {
     for (let i = begin; i < end; i++) indices.push(i);

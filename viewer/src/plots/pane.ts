@@ -7,14 +7,14 @@ import type { Model } from "../model/model";
 import { copyText, h, iconButton, select, setText, shorten } from "../util/dom";
 import * as format from "../util/format";
 import { link, linked } from "../util/link";
-import { remember, remembered } from "../util/storage";
+import { remember, loadStored } from "../util/storage";
 import type { Theme } from "../util/theme";
 import { toast } from "../util/toast";
 import { Chart, TIME_AXIS_PX, valueText, type ChartEvents, type ChartStyle } from "./chart";
 import { COLORS } from "./colors";
 import { Curve } from "./curve";
 import { saveCsv, savePng } from "./export";
-import { shownRange, WINDOWS, zoomed, type Range } from "./range";
+import { computeShownRange, WINDOWS, zoomRange, type Range } from "./range";
 
 const MAX_CURVES = 32;
 const DRAW_INTERVAL_MS = 100;
@@ -48,8 +48,8 @@ export class PlotsPane implements Pane {
     private readonly model: Model,
     theme: Theme,
   ) {
-    this.seconds = Number(linked("window")[0] ?? remembered("plot-window", -1));
-    const expressions = linked("plot").length ? linked("plot") : remembered<string[]>("plots", []);
+    this.seconds = Number(linked("window")[0] ?? loadStored("plot-window", -1));
+    const expressions = linked("plot").length ? linked("plot") : loadStored<string[]>("plots", []);
     for (const expression of expressions.slice(0, MAX_CURVES))
       if (typeof expression === "string" && expression.length <= MAX_TEXT) this.insert(expression);
     this.input = new CompletedInput(
@@ -107,15 +107,15 @@ export class PlotsPane implements Pane {
     this.rebuild();
   }
 
-  private get recorded(): boolean {
+  private get isRecorded(): boolean {
     return this.model.hello?.mode === "recording";
   }
 
   /** Requests everything again: the server forgets its curves with each `hello`. */
   private start(): void {
     if (!this.isOpen || !this.model.hello) return;
-    const windows = this.recorded ? [[0, "Whole recording"] as const, ...WINDOWS] : WINDOWS;
-    if (!windows.some(([seconds]) => seconds === this.seconds)) this.seconds = this.recorded ? 0 : 10;
+    const windows = this.isRecorded ? [[0, "Whole recording"] as const, ...WINDOWS] : WINDOWS;
+    if (!windows.some(([seconds]) => seconds === this.seconds)) this.seconds = this.isRecorded ? 0 : 10;
     this.window.replaceChildren(...windows.map(([seconds, text]) => new Option(text, String(seconds))));
     this.window.value = String(this.seconds);
     this.zoom = this.fetched = null;
@@ -146,7 +146,7 @@ export class PlotsPane implements Pane {
       return;
     }
     this.insert(expression);
-    this.changed();
+    this.notifyChange();
   }
 
   private insert(expression: string): void {
@@ -158,10 +158,10 @@ export class PlotsPane implements Pane {
 
   private remove(curve: Curve): void {
     this.curves = this.curves.filter((one) => one !== curve);
-    this.changed();
+    this.notifyChange();
   }
 
-  private changed(): void {
+  private notifyChange(): void {
     const expressions = this.curves.map(({ expression }) => expression);
     remember("plots", expressions);
     link("plot", expressions);
@@ -178,18 +178,18 @@ export class PlotsPane implements Pane {
 
   private setZoom(range: Range | null): void {
     this.zoom = range;
-    if (this.recorded) this.requestSoon();
+    if (this.isRecorded) this.requestSoon();
     this.schedule();
   }
 
   private zoomBy(factor: number): void {
     const range = this.range();
-    if (range) this.setZoom(zoomed(range, factor));
+    if (range) this.setZoom(zoomRange(range, factor));
   }
 
   private range(): Range | null {
     const { span, playhead, clock } = this.model;
-    return shownRange({ span, playhead, live: clock.live, recorded: this.recorded }, this.seconds, this.zoom);
+    return computeShownRange({ span, playhead, live: clock.live, recorded: this.isRecorded }, this.seconds, this.zoom);
   }
 
   private requestSoon(): void {
@@ -201,8 +201,8 @@ export class PlotsPane implements Pane {
   private request(): void {
     if (!this.isOpen) return;
     const range = this.range();
-    const whole = !this.recorded || !range || (!this.zoom && this.seconds === 0);
-    this.fetched = whole ? null : zoomed(range, 3);
+    const whole = !this.isRecorded || !range || (!this.zoom && this.seconds === 0);
+    this.fetched = whole ? null : zoomRange(range, 3);
     const points = Math.max(1000, 2 * this.area.clientWidth) * (whole ? 1 : 3);
     this.model.send({
       type: "curves",
@@ -225,7 +225,7 @@ export class PlotsPane implements Pane {
       zoom: (range) => this.setZoom(range),
       reset: () => this.setZoom(null),
       seek: (time) => this.model.setClock({ live: false, playing: false }, time),
-      hover: (time) => this.hover(time),
+      hover: (time) => this.showValuesAt(time),
       timeText: (time, digits) => this.timeText(time, digits),
     };
     this.charts = [...titles].map(
@@ -272,7 +272,7 @@ export class PlotsPane implements Pane {
     this.showValues();
   }
 
-  private hover(time: number | null): void {
+  private showValuesAt(time: number | null): void {
     if (time === this.hovered) return;
     this.hovered = time;
     this.showValues();

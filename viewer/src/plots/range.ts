@@ -25,10 +25,10 @@ export interface TimeState {
  * The displayed part of time: the zoomed part; or the whole recording, or a window around the playhead; or the window
  * that ends with the newest data.
  */
-export function shownRange(state: TimeState, seconds: number, zoom: Range | null): Range | null {
+export function computeShownRange(state: TimeState, seconds: number, zoom: Range | null): Range | null {
   if (zoom) return zoom;
   const { span, playhead } = state;
-  if (state.recorded && (seconds === 0 || !Number.isFinite(playhead))) return span && widened(span);
+  if (state.recorded && (seconds === 0 || !Number.isFinite(playhead))) return span && widen(span);
   const length = (seconds || 10) * 1e9;
   if (state.recorded) return [playhead - length / 2, playhead + length / 2];
   const newest = span ? Math.max(span[1], state.live ? playhead || span[1] : span[1]) : playhead;
@@ -38,13 +38,13 @@ export function shownRange(state: TimeState, seconds: number, zoom: Range | null
   return [end - length, end];
 }
 
-export function zoomed(range: Range, factor: number, at = (range[0] + range[1]) / 2): Range {
+export function zoomRange(range: Range, factor: number, at = (range[0] + range[1]) / 2): Range {
   const least = 1e6;
   const length = Math.max(least, (range[1] - range[0]) * factor);
   const part = (at - range[0]) / (range[1] - range[0]);
   return [at - part * length, at + (1 - part) * length];
 }
 
-function widened([from, to]: Range): Range {
+function widen([from, to]: Range): Range {
   return to > from ? [from, to] : [from - 1e9, to + 1e9];
 }

@@ -160,7 +160,7 @@ class Reader implements FieldReader {
     this.view = new DataView(buffer);
   }
 
-  private take(bytes: number): number {
+  private advance(bytes: number): number {
     const start = this.offset;
     if (!Number.isSafeInteger(bytes) || bytes < 0 || start + bytes > this.buffer.byteLength)
       throw new ProtocolError(`${this.what}: ${bytes} bytes expected at ${start} of ${this.buffer.byteLength}`);
@@ -168,46 +168,46 @@ class Reader implements FieldReader {
     return start;
   }
 
-  u32(): number {
-    return this.view.getUint32(this.take(4), true);
+  readUint32(): number {
+    return this.view.getUint32(this.advance(4), true);
   }
 
-  f32(): number {
-    return this.view.getFloat32(this.take(4), true);
+  readFloat32(): number {
+    return this.view.getFloat32(this.advance(4), true);
   }
 
-  f64(): number {
-    return this.view.getFloat64(this.take(8), true);
+  readFloat64(): number {
+    return this.view.getFloat64(this.advance(8), true);
   }
 
   /** A view without a copy if the offset is a multiple of four, as it is in valid messages. */
-  floats(count: number): Float32Array {
-    const start = this.take(count * 4);
+  readFloats(count: number): Float32Array {
+    const start = this.advance(count * 4);
     if (start % 4 === 0) return new Float32Array(this.buffer, start, count);
     return new Float32Array(this.buffer.slice(start, start + count * 4));
   }
 
-  integers(count: number): Uint32Array {
-    const start = this.take(count * 4);
+  readIntegers(count: number): Uint32Array {
+    const start = this.advance(count * 4);
     if (start % 4 === 0) return new Uint32Array(this.buffer, start, count);
     return new Uint32Array(this.buffer.slice(start, start + count * 4));
   }
 
-  doubles(count: number): Float64Array {
-    const start = this.take(count * 8);
+  readDoubles(count: number): Float64Array {
+    const start = this.advance(count * 8);
     if (start % 8 === 0) return new Float64Array(this.buffer, start, count);
     return new Float64Array(this.buffer.slice(start, start + count * 8));
   }
 
   bytes(count: number): Uint8Array<ArrayBuffer> {
-    return new Uint8Array(this.buffer, this.take(count), count);
+    return new Uint8Array(this.buffer, this.advance(count), count);
   }
 
   align(): void {
-    this.take((4 - (this.offset % 4)) % 4);
+    this.advance((4 - (this.offset % 4)) % 4);
   }
 
-  rest(): number {
+  remainingBytes(): number {
     return this.buffer.byteLength - this.offset;
   }
 }
@@ -228,7 +228,7 @@ export function decode(buffer: ArrayBuffer): BinaryMessage {
 
 function decodeFrameUpdate(reader: Reader): FrameUpdate {
   const { revision, time, origin, frames: count, entries } = readFramesHeader(reader);
-  const poses = reader.floats(count * 7);
+  const poses = reader.readFloats(count * 7);
   const states = reader.bytes(count);
   reader.align();
   const displays: DisplayPose[] = [];
@@ -241,8 +241,8 @@ function decodeFrameUpdate(reader: Reader): FrameUpdate {
 
 function decodeCloud(reader: Reader): Cloud {
   const { display: id, sequence, points: count, flags, stamp, range } = readCloudHeader(reader);
-  const points = reader.floats(count * 3);
-  const scalar = flags & CloudFlag.scalars ? reader.floats(count) : null;
+  const points = reader.readFloats(count * 3);
+  const scalar = flags & CloudFlag.scalars ? reader.readFloats(count) : null;
   const rgba = flags & CloudFlag.colors ? reader.bytes(count * 4) : null;
   return { kind: "cloud", id, sequence, count, step: Math.max(1, flags >>> 8), stamp, range, points, scalar, rgba };
 }
@@ -271,7 +271,13 @@ function decodeShapes(reader: Reader): Shapes {
   } catch {
     throw new ProtocolError("shapes: the description is not JSON");
   }
-  return { kind: "shapes", id, sequence, description, payload: reader.floats(Math.floor(reader.rest() / 4)) };
+  return {
+    kind: "shapes",
+    id,
+    sequence,
+    description,
+    payload: reader.readFloats(Math.floor(reader.remainingBytes() / 4)),
+  };
 }
 
 function decodeImage(reader: Reader): Image {
@@ -279,7 +285,7 @@ function decodeImage(reader: Reader): Image {
   const format = flags & 255;
   const step = Math.max(1, flags >>> 8);
   const bytes = BYTES_PER_PIXEL[format];
-  const data = reader.bytes(bytes === undefined ? reader.rest() : bytes * width * height);
+  const data = reader.bytes(bytes === undefined ? reader.remainingBytes() : bytes * width * height);
   const values =
     format === ImageFormat.gray16
       ? new Uint16Array(data.slice().buffer)
@@ -303,16 +309,16 @@ function decodeCurves(reader: Reader): Curves {
   const curves = records.map(({ curve, reset, points }) => ({
     id: curve,
     reset: reset === 1,
-    times: reader.doubles(points),
-    values: reader.doubles(points),
+    times: reader.readDoubles(points),
+    values: reader.readDoubles(points),
   }));
   return { kind: "curves", curves };
 }
 
 function decodeNode(reader: Reader): NodeGeometry {
   const { node: id, vertices: count, indices: used, colors: colored, width, offset } = readNodeHeader(reader);
-  const vertices = reader.floats(count * 3);
-  const indices = reader.integers(used);
+  const vertices = reader.readFloats(count * 3);
+  const indices = reader.readIntegers(used);
   if (!indices.every((index) => index < count)) throw new ProtocolError("node: an index of a vertex is too large");
   const colors = reader.bytes(colored * 4);
   return { kind: "node", id, vertices, indices, colors, width, offset };

@@ -4,7 +4,7 @@
  * server sends at least one message per second.
  */
 
-import { fatal } from "../util/fatal";
+import { showFatalError } from "../util/fatal";
 import { toast } from "../util/toast";
 import { checkServerMessage, decode, PROTOCOL_VERSION, type ClientMessage } from "./messages";
 import type { MessageSource, SourceEvents } from "./source";
@@ -126,7 +126,7 @@ export class SocketSource implements MessageSource {
       }
       const message = JSON.parse(data) as unknown;
       const hello = message as { type?: unknown; version?: unknown } | null;
-      if (hello?.type === "hello" && !this.matches(hello.version)) return;
+      if (hello?.type === "hello" && !this.checkVersion(hello.version)) return;
       this.listener("text", checkServerMessage(message));
     } catch (error) {
       this.listener("invalid", error instanceof Error ? error.message : String(error));
@@ -134,14 +134,14 @@ export class SocketSource implements MessageSource {
   }
 
   /** Whether the page and the server use the same protocol; reloads the page or explains why it cannot continue. */
-  private matches(version: unknown): boolean {
+  private checkVersion(version: unknown): boolean {
     const verdict = compareVersion(version, sessionStorage);
     if (verdict === "current") return true;
     this.compatible = false;
     this.socket?.close();
     if (verdict === "reload") location.reload();
     else
-      fatal(
+      showFatalError(
         "This page does not match its server",
         `The page uses protocol ${PROTOCOL_VERSION}, the server ${String(version).slice(0, 40)}. Clear the browser’s ` +
           "cache and reload the page. If you built coframe yourself, run “make page” and restart the server.",

@@ -25,7 +25,7 @@ export class ReplayDisplay {
 
   constructor(readonly block: ReplayDisplayBlock) {
     this.changes = new Uint32Array(bytes(block.changes, 4));
-    this.starts = cumulative(new Uint32Array(bytes(block.counts, 4)));
+    this.starts = cumulativeSums(new Uint32Array(bytes(block.counts, 4)));
     this.sequences = new Uint32Array(bytes(block.sequences, 4));
     this.poses = new Float32Array(bytes(block.poses, 4));
     this.stamps = new Float64Array(bytes(block.stamps, 8));
@@ -86,7 +86,7 @@ export function lastUpTo(values: ArrayLike<number>, limit: number): number {
   return low;
 }
 
-function cumulative(counts: Uint32Array): Uint32Array {
+function cumulativeSums(counts: Uint32Array): Uint32Array {
   const sums = new Uint32Array(counts.length + 1);
   counts.forEach((count, i) => (sums[i + 1] = (sums[i] as number) + count));
   return sums;

@@ -7,7 +7,7 @@ import {
   IDENTITY,
   inverse,
   matrix,
-  relative,
+  relativePose,
   rpyDegrees,
   type Pose,
   type Quaternion,
@@ -26,8 +26,8 @@ import {
   type DisplayOptions,
   type Vector,
 } from "../protocol/messages";
-import { fatal } from "../util/fatal";
-import { quoted } from "../util/static_commands";
+import { showFatalError } from "../util/fatal";
+import { quote } from "../util/static_commands";
 import { bytes, DAMAGED, lastUpTo, ReplayDisplay, type PoseAt } from "./displays";
 import type { MessageSource, SourceEvents } from "../protocol/source";
 
@@ -54,7 +54,7 @@ export function openReplay(element: HTMLElement): ReplaySource {
     if (block?.format !== "coframe-replay") throw new Error("The page contains no recording.");
     return new ReplaySource(block);
   } catch (error) {
-    throw fatal("Cannot open this replay", error instanceof Error ? error.message : String(error));
+    throw showFatalError("Cannot open this replay", error instanceof Error ? error.message : String(error));
   }
 }
 
@@ -360,7 +360,7 @@ export class ReplaySource implements MessageSource {
     }
     const sample = this.sample();
     const names = chain.map((frame) => this.forest.name(frame));
-    const pose = relative(this.pose(sample, t), this.pose(sample, s));
+    const pose = relativePose(this.pose(sample, t), this.pose(sample, s));
     if (![...pose.position, ...pose.quaternion].every(Number.isFinite))
       return { ...failure, chain: names, error: "The replay contains no transform at this time." };
     const values = [...pose.position, ...pose.quaternion].map((value) => String(Number(value.toPrecision(9))));
@@ -373,7 +373,7 @@ export class ReplaySource implements MessageSource {
       quaternion: pose.quaternion,
       rpy_deg: rpyDegrees(pose.quaternion),
       matrix: matrix(pose),
-      static_command: `coframe static ${flags} --frame-id ${quoted(target)} --child-frame-id ${quoted(source)}`,
+      static_command: `coframe static ${flags} --frame-id ${quote(target)} --child-frame-id ${quote(source)}`,
     };
   }
 }

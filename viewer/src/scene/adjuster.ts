@@ -4,7 +4,7 @@
 import type { Model } from "../model/model";
 import type { FrameUpdate } from "../protocol/messages";
 import type { Pose } from "../util/math";
-import { adjusted, poseInParent } from "./adjustment";
+import { applyAdjustment, poseInParent } from "./adjustment";
 import type { FramePoses } from "./frame_poses";
 import { Gizmo, type GizmoMode } from "./gizmo";
 import type { SceneRenderer } from "./renderer";
@@ -74,8 +74,8 @@ export class Adjuster {
     this.notify();
   }
 
-  get hovered(): boolean {
-    return this.gizmo?.hovered ?? false;
+  get isHovered(): boolean {
+    return this.gizmo?.isHovered ?? false;
   }
 
   /** The update with the adjusted transform; the same update if nothing is adjusted. */
@@ -83,7 +83,7 @@ export class Adjuster {
     const frames = this.frames();
     if (!this.current || !frames) return update;
     const adjustment = { frame: frames.child, pose: this.current.pose };
-    return adjusted(update, this.model.forest, this.model.fixed, adjustment);
+    return applyAdjustment(update, this.model.forest, this.model.fixed, adjustment);
   }
 
   /** Moves the gizmo after the poses of an adjusted update are set. */

@@ -3,7 +3,7 @@
 
 import type { Forest } from "../model/model";
 import { FrameState, type FrameUpdate } from "../protocol/messages";
-import { compose, inverse, normalize, relative, type Pose, type Quaternion, type Vector } from "../util/math";
+import { compose, inverse, normalize, relativePose, type Pose, type Quaternion, type Vector } from "../util/math";
 
 export interface Adjustment {
   /** The index of the child frame. */
@@ -27,7 +27,12 @@ export function poseAt(poses: ArrayLike<number>, i: number): Pose {
  * Returns a copy of a frame update as it would be with the adjusted transform. Everything below the frame moves, or, if
  * the fixed frame is below it, everything else. Displayed messages move with their frames.
  */
-export function adjusted(update: FrameUpdate, forest: Forest, fixed: string, adjustment: Adjustment): FrameUpdate {
+export function applyAdjustment(
+  update: FrameUpdate,
+  forest: Forest,
+  fixed: string,
+  adjustment: Adjustment,
+): FrameUpdate {
   const { frame, pose } = adjustment;
   const parent = forest.frames[frame]?.parent ?? -1;
   if (parent < 0 || update.revision !== forest.revision) return update;
@@ -50,8 +55,11 @@ export function adjusted(update: FrameUpdate, forest: Forest, fixed: string, adj
     if (!fixedIsBelow) {
       // A message has the pose of its own stamp, when the parent may have been somewhere else.
       const message = poseAt(update.poses, entry.frame);
-      const correction = compose(relative(framePose, parentPose), pose);
-      moved = compose(compose(compose(own, relative(message, framePose)), correction), relative(framePose, message));
+      const correction = compose(relativePose(framePose, parentPose), pose);
+      moved = compose(
+        compose(compose(own, relativePose(message, framePose)), correction),
+        relativePose(framePose, message),
+      );
     }
     const changed = entry.pose.slice();
     write(changed, 0, moved);
@@ -68,7 +76,7 @@ function write(out: Float32Array, at: number, { position, quaternion }: Pose): v
 export function poseInParent(update: FrameUpdate, forest: Forest, frame: number): Pose | null {
   const parent = forest.frames[frame]?.parent ?? -1;
   if (parent < 0 || update.revision !== forest.revision) return null;
-  const { position, quaternion } = relative(poseAt(update.poses, parent), poseAt(update.poses, frame));
+  const { position, quaternion } = relativePose(poseAt(update.poses, parent), poseAt(update.poses, frame));
   const round = (value: number): number => Math.round(value * 1e6) / 1e6;
   return { position: position.map(round) as Vector, quaternion: normalize(quaternion.map(round) as Quaternion) };
 }

@@ -87,19 +87,19 @@ export class Camera {
 
   get target(): THREE.Vector3 {
     const { mode, controls } = this;
-    return mode === "look" ? controls.look.front() : controls[mode].target;
+    return mode === "look" ? controls.look.pointInFront() : controls[mode].target;
   }
 
   setMode(mode: CameraMode): void {
     if (mode === this.mode) return;
     const target = this.target.clone();
     const height = this.visibleHeight();
-    this.change(DEFAULT_CONTROLLERS[mode]);
+    this.setController(DEFAULT_CONTROLLERS[mode]);
     if (mode !== "look") this.moveTo(target, height);
   }
 
   /** Uses another view controller, without moving the camera. */
-  private change(controller: string): void {
+  private setController(controller: string): void {
     this.controls[this.mode].enabled = false;
     this.controller = controller;
     this.mode = CONTROLLERS[controller] as CameraMode;
@@ -238,7 +238,7 @@ export class Camera {
 
   /** Moves the camera so that the given height in meters around the target fills the view. */
   private moveTo(target: THREE.Vector3, visibleHeight: number): void {
-    if (this.mode === "look") this.change("Orbit");
+    if (this.mode === "look") this.setController("Orbit");
     const controls = this.controls[this.mode === "top" ? "top" : "orbit"];
     if (this.mode === "orbit") {
       const direction = this.perspective.position.clone().sub(controls.target).normalize();
@@ -277,7 +277,7 @@ export class Camera {
       const parts = value && typeof value === "object" && !Array.isArray(value) ? value : {};
       return new THREE.Vector3(number(parts["X"], 0), number(parts["Y"], 0), number(parts["Z"], 0));
     };
-    this.change(name);
+    this.setController(name);
     this.followed = reference.position.clone();
     this.followedYaw = yawOf(reference);
     if (this.mode === "top") {
@@ -318,7 +318,7 @@ export class Camera {
         options: { Angle: this.angle, Scale: this.flat.zoom, ...frame, X: target.x, Y: target.y },
       };
     if (this.mode === "look") {
-      const angles = { Pitch: look.pitch, Yaw: positive(look.yaw), ...(look.roll ? { Roll: look.roll } : {}) };
+      const angles = { Pitch: look.pitch, Yaw: normalizeAngle(look.yaw), ...(look.roll ? { Roll: look.roll } : {}) };
       return { class: name, options: { ...angles, Position: xyz(look.position), ...frame } };
     }
     const turn = this.controller === "ThirdPersonFollower" ? this.followedYaw : 0;
@@ -331,7 +331,7 @@ export class Camera {
         "Focal Point": xyz(target.applyAxisAngle(UP, -turn)),
         Pitch: Math.asin(Math.max(-1, Math.min(1, away.z / distance))),
         ...frame,
-        Yaw: positive(Math.atan2(away.y, away.x) - turn),
+        Yaw: normalizeAngle(Math.atan2(away.y, away.x) - turn),
       },
     };
   }
@@ -347,6 +347,6 @@ function xyz(point: THREE.Vector3): JsonObject {
 }
 
 /** An angle from 0 to 2 pi, as RViz writes it. */
-function positive(angle: number): number {
+function normalizeAngle(angle: number): number {
   return ((angle % (2 * Math.PI)) + 2 * Math.PI) % (2 * Math.PI);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The WebGL context of the canvas. The first call creates it; later calls return the same one. */
 
-import { fatal } from "../util/fatal";
+import { showFatalError } from "../util/fatal";
 
 export function pixelRatio(): number {
   return Math.min(2, devicePixelRatio);
@@ -17,7 +17,7 @@ export function drawingSize(canvas: HTMLCanvasElement): { width: number; height:
 export function opaqueContext(canvas: HTMLCanvasElement): WebGL2RenderingContext {
   const context = canvas.getContext("webgl2", { alpha: false, antialias: true, powerPreference: "high-performance" });
   if (context) return context;
-  throw fatal(
+  throw showFatalError(
     "This browser cannot draw 3D graphics",
     "The page needs WebGL 2. Enable hardware acceleration in the browser’s settings, or use another browser.",
   );

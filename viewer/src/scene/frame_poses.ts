@@ -54,7 +54,7 @@ export class FramePoses {
       for (let k = 0; k < 4; k++) this.quaternions[i * 4 + k] = update.poses[p + 3 + k] as number;
       this.fade[i] = this.fadeOf(model, i, state, age);
       this.drawn[i] = Number(
-        this.fade[i] < 1 && state !== FrameState.gone && finite(update.poses, p) && model.isShown(forest.name(i)),
+        this.fade[i] < 1 && state !== FrameState.gone && isFinitePose(update.poses, p) && model.isShown(forest.name(i)),
       );
     }
     return moved;
@@ -121,7 +121,7 @@ export class FramePoses {
   }
 }
 
-function finite(poses: Float32Array, at: number): boolean {
+function isFinitePose(poses: Float32Array, at: number): boolean {
   for (let k = 0; k < 7; k++) if (!Number.isFinite(poses[at + k] as number)) return false;
   return true;
 }

@@ -39,7 +39,7 @@ export class Gizmo {
   }
 
   /** Whether the pointer is on the gizmo, so that a click does not select another frame. */
-  get hovered(): boolean {
+  get isHovered(): boolean {
     return this.controls.axis !== null;
   }
 

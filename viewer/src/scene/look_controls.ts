@@ -48,7 +48,7 @@ export class LookControls {
   }
 
   /** A point in front of the camera. */
-  front(): THREE.Vector3 {
+  pointInFront(): THREE.Vector3 {
     const ahead = new THREE.Vector3(1, 0, 0).applyQuaternion(this.orientation()).applyQuaternion(this.base.quaternion);
     return this.camera.position.clone().add(ahead);
   }

@@ -69,7 +69,7 @@ export class Measure {
     if (this.chosen.length === 1) return `From ${nameOf(first)}: click the second frame or point`;
     if (!this.object.visible) return "One of the two frames is not visible";
     const [a, b] = this.ends;
-    const along = (["x", "y", "z"] as const).map((k) => `Δ${k} ${format.fixed(b[k] - a[k], 3)}`).join("  ");
+    const along = (["x", "y", "z"] as const).map((k) => `Δ${k} ${format.formatFixed(b[k] - a[k], 3)}`).join("  ");
     return `${format.meters(a.distanceTo(b))}   ${along}`;
   }
 
@@ -87,5 +87,5 @@ export class Measure {
 }
 
 function nameOf(end: MeasuredEnd): string {
-  return typeof end === "string" ? shorten(end, 40) : `(${end.map((part) => format.fixed(part, 3)).join(", ")})`;
+  return typeof end === "string" ? shorten(end, 40) : `(${end.map((part) => format.formatFixed(part, 3)).join(", ")})`;
 }

@@ -37,7 +37,7 @@ export function tgaProblem(bytes: ArrayBuffer): string {
   if (bytes.byteLength < 18) return "is not a TGA image";
   const header = new DataView(bytes);
   const pixels = header.getUint16(12, true) * header.getUint16(14, true);
-  return pixels > MAX_PIXELS ? tooMany(pixels, MAX_PIXELS, "pixels") : "";
+  return pixels > MAX_PIXELS ? limitProblem(pixels, MAX_PIXELS, "pixels") : "";
 }
 
 /** Why an OBJ text or its material library is not read, or "". */
@@ -48,9 +48,9 @@ export function objProblem(text: string): string {
     const kind = line.trimStart()[0] as string;
     if ("ogun".includes(kind)) parts++;
     // A face with many corners becomes triangles, each with three vertices of its own.
-    else vertices += kind === "f" ? 3 * (words(line) - 3) : kind === "v" ? 1 : words(line);
-    if (parts > MAX_PARTS) return tooMany(parts, MAX_PARTS, "groups or materials");
-    if (vertices > 3 * MAX_VERTICES) return tooMany(vertices, 3 * MAX_VERTICES, "vertices");
+    else vertices += kind === "f" ? 3 * (countWords(line) - 3) : kind === "v" ? 1 : countWords(line);
+    if (parts > MAX_PARTS) return limitProblem(parts, MAX_PARTS, "groups or materials");
+    if (vertices > 3 * MAX_VERTICES) return limitProblem(vertices, 3 * MAX_VERTICES, "vertices");
   }
   return "";
 }
@@ -70,14 +70,14 @@ export function colladaProblem(document: Document): string {
     for (const [number] of (counts.textContent ?? "").matchAll(/\S+/g)) {
       if (!isIndex(number, MAX_VERTICES)) return `has a polygon of ${number} vertices`;
       vertices += 3 * Math.max(Number(number), 1);
-      if (vertices > 3 * MAX_VERTICES) return tooMany(vertices, 3 * MAX_VERTICES, "vertices");
+      if (vertices > 3 * MAX_VERTICES) return limitProblem(vertices, 3 * MAX_VERTICES, "vertices");
     }
   for (const indices of document.getElementsByTagName("p")) {
     const inputs = [...(indices.parentElement?.children ?? [])].filter(({ nodeName }) => nodeName === "input");
     if (!inputs.length || !inputs.every((input) => isIndex(input.getAttribute("offset") ?? "", MAX_STRIDE)))
       return "has indices without valid inputs";
-    vertices += words(indices.textContent ?? "") / inputs.length;
-    if (vertices > 3 * MAX_VERTICES) return tooMany(vertices, 3 * MAX_VERTICES, "vertices");
+    vertices += countWords(indices.textContent ?? "") / inputs.length;
+    if (vertices > 3 * MAX_VERTICES) return limitProblem(vertices, 3 * MAX_VERTICES, "vertices");
   }
   return nodesProblem(document);
 }
@@ -113,23 +113,23 @@ function nodesProblem(document: Document): string {
 export function gltfProblem(json: unknown): string {
   const file = record(json);
   let vertices = 0;
-  for (const accessor of records(file.accessors)) {
+  for (const accessor of toRecords(file.accessors)) {
     if (!isIndex(String(accessor.count), 4 * MAX_VERTICES))
       return `has an accessor of ${String(accessor.count)} values`;
     // The values of these are not in the file.
     if (accessor.bufferView === undefined || accessor.sparse) vertices += Number(accessor.count);
   }
-  if (vertices > MAX_VERTICES) return tooMany(vertices, MAX_VERTICES, "vertices");
-  const nodes = records(file.nodes);
-  const primitives = records(file.meshes).map((mesh) => records(mesh.primitives).length);
+  if (vertices > MAX_VERTICES) return limitProblem(vertices, MAX_VERTICES, "vertices");
+  const nodes = toRecords(file.nodes);
+  const primitives = toRecords(file.meshes).map((mesh) => toRecords(mesh.primitives).length);
   const parts =
-    nodes.reduce((sum, { mesh }) => sum + 1 + (primitives[Number(mesh)] ?? 0), records(file.materials).length) +
+    nodes.reduce((sum, { mesh }) => sum + 1 + (primitives[Number(mesh)] ?? 0), toRecords(file.materials).length) +
     primitives.reduce((sum, number) => sum + number, 0);
-  if (parts > MAX_PARTS) return tooMany(parts, MAX_PARTS, "nodes, primitives and materials");
-  const external = records(file.buffers).filter(({ uri }) => typeof uri === "string" && !uri.startsWith("data:"));
-  if (external.length > MAX_BUFFERS) return tooMany(external.length, MAX_BUFFERS, "files");
-  const textures = records(file.images).length;
-  if (textures > MAX_TEXTURES) return tooMany(textures, MAX_TEXTURES, "textures");
+  if (parts > MAX_PARTS) return limitProblem(parts, MAX_PARTS, "nodes, primitives and materials");
+  const external = toRecords(file.buffers).filter(({ uri }) => typeof uri === "string" && !uri.startsWith("data:"));
+  if (external.length > MAX_BUFFERS) return limitProblem(external.length, MAX_BUFFERS, "files");
+  const textures = toRecords(file.images).length;
+  if (textures > MAX_TEXTURES) return limitProblem(textures, MAX_TEXTURES, "textures");
   return isForest(nodes.map(({ children }) => (Array.isArray(children) ? (children as unknown[]) : [])))
     ? ""
     : "has nodes that contain themselves or have two parents";
@@ -163,12 +163,12 @@ function record(value: unknown): Record<string, unknown> {
   return typeof value === "object" && value !== null ? (value as Record<string, unknown>) : {};
 }
 
-function records(value: unknown): Record<string, unknown>[] {
+function toRecords(value: unknown): Record<string, unknown>[] {
   return Array.isArray(value) ? value.map(record) : [];
 }
 
 /** The number of words that whitespace separates. */
-function words(text: string): number {
+function countWords(text: string): number {
   let number = 0;
   let inWord = false;
   for (let i = 0; i < text.length; i++) {
@@ -183,6 +183,6 @@ function isIndex(text: string, most: number): boolean {
   return /^\d{1,9}$/.test(text.trim()) && Number(text) <= most;
 }
 
-function tooMany(number: number, most: number, what: string): string {
+function limitProblem(number: number, most: number, what: string): string {
   return `has ${Math.round(number)} ${what}; at most ${most} can be read`;
 }

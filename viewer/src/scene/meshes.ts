@@ -73,20 +73,23 @@ async function fetchMesh(url: string, name: string): Promise<LoadedMesh> {
     vertices += (part as Partial<THREE.Mesh>).geometry?.getAttribute("position")?.count ?? 0;
   });
   if (vertices > MAX_VERTICES)
-    throw new MeshError(`${short(name)} has ${vertices} vertices. At most ${MAX_VERTICES} can be drawn.`);
+    throw new MeshError(`${shortenName(name)} has ${vertices} vertices. At most ${MAX_VERTICES} can be drawn.`);
   loaded.object.position.set(0, 0, 0);
   loaded.object.quaternion.identity();
   return loaded;
 }
 
 async function fetchBytes(url: string, name: string): Promise<ArrayBuffer> {
-  if (!isAllowed(url)) throw new MeshError(`${short(name)} is not served by this viewer.`);
+  if (!isAllowed(url)) throw new MeshError(`${shortenName(name)} is not served by this viewer.`);
   const stop = new AbortController();
   const response = await fetch(url, { signal: stop.signal });
-  if (!response.ok) throw new MeshError(`${short(name)}: ${(await response.text()).slice(0, 200) || response.status}`);
+  if (!response.ok)
+    throw new MeshError(`${shortenName(name)}: ${(await response.text()).slice(0, 200) || response.status}`);
   const tooLarge = (size: number): never => {
     stop.abort();
-    throw new MeshError(`${short(name)} has ${Math.round(size / 1e6)} MB. At most ${MAX_BYTES / 1e6} MB can be drawn.`);
+    throw new MeshError(
+      `${shortenName(name)} has ${Math.round(size / 1e6)} MB. At most ${MAX_BYTES / 1e6} MB can be drawn.`,
+    );
   };
   const declared = Number(response.headers.get("Content-Length") ?? 0);
   if (declared > MAX_BYTES) tooLarge(declared);
@@ -147,7 +150,7 @@ async function parseFormat(
       makeOpaque(document);
       const source = new XMLSerializer().serializeToString(document);
       const scene = new ColladaLoader(manager).parse(source, folder)?.scene;
-      if (!scene) throw new MeshError(`${short(name)} is not a COLLADA file.`);
+      if (!scene) throw new MeshError(`${shortenName(name)} is not a COLLADA file.`);
       return { object: scene, colored: true };
     }
     case "obj":
@@ -156,7 +159,9 @@ async function parseFormat(
     case "gltf":
       return parseGltf(bytes, name, folder, manager);
     default:
-      throw new MeshError(`${short(name)} has an unsupported format. Supported formats: STL, DAE, OBJ, GLB and glTF.`);
+      throw new MeshError(
+        `${shortenName(name)} has an unsupported format. Supported formats: STL, DAE, OBJ, GLB and glTF.`,
+      );
   }
 }
 
@@ -209,7 +214,7 @@ function parseStl(bytes: ArrayBuffer, name: string): THREE.BufferGeometry {
     // The loader of three.js needs quadratic time for a text with many beginnings of facets and no ends.
     geometry.setAttribute("position", new THREE.BufferAttribute(stlCoordinates(text(bytes, name)), 3));
   }
-  if (!geometry.getAttribute("position")?.count) throw new MeshError(`${short(name)} contains no triangles.`);
+  if (!geometry.getAttribute("position")?.count) throw new MeshError(`${shortenName(name)} contains no triangles.`);
   // The normals in STL files are unreliable; those of the triangles are always correct.
   geometry.computeVertexNormals();
   return geometry;
@@ -232,13 +237,13 @@ async function parseGltf(
 }
 
 function refuse(problem: string, name: string): void {
-  if (problem) throw new MeshError(`${short(name)} ${problem}.`);
+  if (problem) throw new MeshError(`${shortenName(name)} ${problem}.`);
 }
 
 function text(bytes: ArrayBuffer, name: string): string {
   if (bytes.byteLength > MAX_TEXT_BYTES)
     throw new MeshError(
-      `${short(name)} is a text file of ${Math.round(bytes.byteLength / 1e6)} MB. At most ${MAX_TEXT_BYTES / 1e6} MB can be drawn.`,
+      `${shortenName(name)} is a text file of ${Math.round(bytes.byteLength / 1e6)} MB. At most ${MAX_TEXT_BYTES / 1e6} MB can be drawn.`,
     );
   return new TextDecoder().decode(bytes);
 }
@@ -276,7 +281,7 @@ function isAllowed(url: string): boolean {
   }
 }
 
-function short(name: string): string {
+function shortenName(name: string): string {
   const file = name.split("/").pop() ?? name;
   return file.length > 80 ? `${file.slice(0, 80)}…` : file;
 }

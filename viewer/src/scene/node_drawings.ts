@@ -57,7 +57,7 @@ function text(node: SceneNode, palette: Palette): THREE.Object3D | null {
 }
 
 function axes(node: SceneNode, palette: Palette): THREE.Object3D {
-  const object = new THREE.Mesh(axesGeometry(palette, 0.03), unchanged(node, "axes"));
+  const object = new THREE.Mesh(axesGeometry(palette, 0.03), makeMaterial(node, "axes"));
   object.scale.setScalar(node.size);
   return object;
 }
@@ -66,7 +66,7 @@ function points(node: SceneNode, { vertices, colors }: NodeGeometry): THREE.Obje
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(vertices, 3));
   if (colors.length > 0) geometry.setAttribute("rgba", new THREE.BufferAttribute(colors, 4, true));
-  const object = new THREE.Points(geometry, unchanged(node, colors.length > 0 ? "colored" : "plain"));
+  const object = new THREE.Points(geometry, makeMaterial(node, colors.length > 0 ? "colored" : "plain"));
   object.frustumCulled = false;
   return object;
 }
@@ -129,7 +129,7 @@ function linear(colors: Uint8Array): Float32Array {
 }
 
 /** A material that writes sRGB colors unchanged; three.js would convert them from linear colors. */
-function unchanged(node: SceneNode, kind: "axes" | "plain" | "colored"): THREE.ShaderMaterial {
+function makeMaterial(node: SceneNode, kind: "axes" | "plain" | "colored"): THREE.ShaderMaterial {
   const [red, green, blue] = node.color ?? DEFAULT_COLOR;
   const material = new THREE.ShaderMaterial({
     vertexColors: kind === "axes",

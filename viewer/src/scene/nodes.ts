@@ -87,7 +87,7 @@ export class NodesView {
   setHidden(name: string, hidden: boolean): void {
     if (hidden) this.hidden.add(name);
     else this.hidden.delete(name);
-    this.changed();
+    this.notifyChange();
   }
 
   private setNode(node: SceneNode): void {
@@ -104,7 +104,7 @@ export class NodesView {
     }
     place.entries.set(node.id, entry);
     this.names.set(node.id, node.name);
-    this.changed();
+    this.notifyChange();
   }
 
   private setGeometry(geometry: NodeGeometry): void {
@@ -128,7 +128,7 @@ export class NodesView {
       place.outer.removeFromParent();
       this.places.delete(place.name);
     }
-    this.changed();
+    this.notifyChange();
   }
 
   private clear(): void {
@@ -152,7 +152,7 @@ export class NodesView {
     place.inner.add(entry.drawing);
   }
 
-  private changed(): void {
+  private notifyChange(): void {
     this.view.refresh();
     for (const listener of this.listeners) listener();
   }
@@ -178,7 +178,7 @@ export class NodesView {
   /** Places a node. Returns why it cannot be placed, or "". */
   private placeOne(place: Place, framePoses: FramePoses): string {
     const { outer, inner, current } = place;
-    const above = this.above(place.name);
+    const above = this.nearestAncestor(place.name);
     // A node in its own frame is not inside the node above it, but is hidden with it.
     const inside = current?.node.frame === null ? (above?.inner ?? this.object) : this.object;
     if (outer.parent !== inside) inside.add(outer);
@@ -198,7 +198,7 @@ export class NodesView {
   }
 
   /** The nearest node above a name. */
-  private above(name: string): Place | null {
+  private nearestAncestor(name: string): Place | null {
     for (let end = name.lastIndexOf("/"); end > 0; end = name.lastIndexOf("/", end - 1)) {
       const place = this.places.get(name.slice(0, end));
       if (place) return place;
@@ -207,7 +207,7 @@ export class NodesView {
   }
 
   private isShown(place: Place): boolean {
-    for (let at: Place | null = place; at; at = this.above(at.name))
+    for (let at: Place | null = place; at; at = this.nearestAncestor(at.name))
       if (!at.current?.node.visible || this.hidden.has(at.name)) return false;
     return true;
   }
@@ -229,7 +229,7 @@ export class NodesView {
   /** The clickable node under the pointer, with the point that is hit; null if there is none. */
   private clickableAt(event: PointerEvent): { place: Place; node: SceneNode; hit: Hit } | null {
     if (![...this.places.values()].some((place) => place.current?.node.clickable)) return null;
-    const hit = this.view.hit(event, [this.object]);
+    const hit = this.view.findHit(event, [this.object]);
     const place = hit?.object.parent?.userData.node as Place | undefined;
     const node = place?.current?.node;
     return hit && place && node?.clickable ? { place, node, hit } : null;

@@ -5,7 +5,7 @@ import type * as THREE from "three";
 import { fillSelect, h, iconButton, select } from "../util/dom";
 import * as format from "../util/format";
 import type { Pose, Quaternion, Vector } from "../util/math";
-import { remember, remembered } from "../util/storage";
+import { remember, loadStored } from "../util/storage";
 import type { Model } from "../model/model";
 import type { FramePoses } from "./frame_poses";
 import { LabelLayer, type Label } from "./labels";
@@ -43,7 +43,7 @@ class Pane {
     this.frames = select("Followed frame", [], NO_FRAME, (frame) => {
       this.settings.frame = frame || null;
       this.camera.follow(null, false);
-      owner.changed();
+      owner.notifyChange();
     });
     const kind = select("Kind of view", KINDS, settings.kind, (value) => this.setKind(value as PaneKind));
     const layer = h("div", { class: "labels", aria: { hidden: "true" } });
@@ -92,7 +92,7 @@ class Pane {
     this.camera.dispose();
     this.camera = new PaneCamera(kind, this.area, this.owner.redraw);
     this.fitted = false;
-    this.owner.changed();
+    this.owner.notifyChange();
   }
 }
 
@@ -107,7 +107,7 @@ export class Panes {
     private readonly content: () => THREE.Box3,
   ) {
     model.on("tree", () => this.fillFrames());
-    const last = remembered<PaneSettings[]>("panes", []);
+    const last = loadStored<PaneSettings[]>("panes", []);
     if (Array.isArray(last)) for (const settings of last.slice(0, MAX_PANES)) if (isValid(settings)) this.add(settings);
   }
 
@@ -121,14 +121,14 @@ export class Panes {
     this.list.push(pane);
     this.root.append(pane.element);
     this.fillFrames();
-    this.changed();
+    this.notifyChange();
   }
 
   remove(pane: Pane): void {
     pane.camera.dispose();
     pane.element.remove();
     this.list = this.list.filter((other) => other !== pane);
-    this.changed();
+    this.notifyChange();
   }
 
   /** Updates the cameras before the scene is drawn; `moved` is the movement of the scene's origin. */
@@ -154,7 +154,7 @@ export class Panes {
     });
   }
 
-  changed(): void {
+  notifyChange(): void {
     this.root.hidden = this.list.length === 0;
     remember(
       "panes",
@@ -169,7 +169,7 @@ export class Panes {
 
   private fillFrames(): void {
     if (this.list.length === 0) return;
-    const names = format.sorted(this.model.forest.frames.map((frame) => frame.name));
+    const names = format.sortNames(this.model.forest.frames.map((frame) => frame.name));
     for (const pane of this.list) pane.fillFrames(names);
   }
 

@@ -52,13 +52,13 @@ export class Picker {
 
   /** The nearest point on a visible mesh or cloud; null if the ray hits none. */
   surface(roots: readonly THREE.Object3D[]): THREE.Vector3 | null {
-    return this.hit(roots, false)?.point ?? null;
+    return this.findHit(roots, false)?.point ?? null;
   }
 
   /**
    * The nearest visible mesh, cloud, sprite or line that the ray hits, with the point on it; null if it hits none.
    */
-  hit(roots: readonly THREE.Object3D[], sprites = true, lines = false): Hit | null {
+  findHit(roots: readonly THREE.Object3D[], sprites = true, lines = false): Hit | null {
     const hits: THREE.Intersection[] = [];
     for (const root of roots)
       forEachVisible(root, (object) => {

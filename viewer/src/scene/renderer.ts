@@ -56,7 +56,7 @@ export class SceneRenderer {
   }
 
   /** Whether the browser has taken the graphics card away, and nothing can be drawn. */
-  get lost(): boolean {
+  get isContextLost(): boolean {
     return this.isLost;
   }
 

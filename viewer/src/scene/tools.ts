@@ -20,7 +20,7 @@ export interface PixelBox {
   bottom: number;
 }
 
-export function publishes(tool: Tool | null): tool is PublishingTool {
+export function isPublishingTool(tool: Tool | null): tool is PublishingTool {
   return tool !== null && Object.hasOwn(PUBLISHING_TOOLS, tool);
 }
 

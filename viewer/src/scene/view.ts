@@ -150,7 +150,7 @@ export class View {
     const { positions, drawn, count } = this.framePoses;
     const points: THREE.Vector3[] = [];
     for (let i = 0; i < count; i++) if (drawn[i]) points.push(new THREE.Vector3().fromArray(positions, i * 3));
-    const box = new THREE.Box3().setFromPoints(withoutOutliers(points));
+    const box = new THREE.Box3().setFromPoints(removeOutliers(points));
     // Data far away from the frames, such as long scans, is ignored unless there are no frames.
     const near = box.clone().expandByScalar(Math.max(FIT_MARGIN_M, box.getSize(new THREE.Vector3()).length() / 3));
     for (const bounds of this.bounds) {
@@ -191,9 +191,9 @@ export class View {
   }
 
   /** What is visible under the pointer; null if it is none of these objects. */
-  hit(event: PointerEvent, roots: readonly THREE.Object3D[], lines = false): Hit | null {
+  findHit(event: PointerEvent, roots: readonly THREE.Object3D[], lines = false): Hit | null {
     this.aim(event);
-    return this.picker.hit(roots, true, lines);
+    return this.picker.findHit(roots, true, lines);
   }
 
   /** The frame whose origin is near the pointer. */
@@ -265,19 +265,19 @@ export class View {
   }
 
   /** The view in the format of .rviz files. */
-  get wholeView(): RvizView {
+  get savedView(): RvizView {
     return this.renderer.camera.describe(this.followed, this.reference() ?? this.fixedFrame());
   }
 
   /** The view in the format of .rviz files: what has changed since that of the file was applied, or all of it. */
   describeView(): RvizView {
-    const current = this.wholeView;
+    const current = this.savedView;
     const whole = { class: current.class.replace(/^.*\//, ""), options: current.options };
     if (!this.fileView) return whole;
     const { view, before } = this.fileView;
     if (!before) return view;
     if (before.class !== current.class) return whole;
-    return { class: whole.class, options: changedNumbers(before.options, current.options) };
+    return { class: whole.class, options: findChanges(before.options, current.options) };
   }
 
   /** The pose of the followed frame in the scene, or null if it is not known yet. */
@@ -345,12 +345,12 @@ export class View {
     if (!this.fitted && (framePoses.drawn.includes(1) || this.bounds.some((bounds) => !bounds().isEmpty()))) {
       this.fitted = true;
       this.fit();
-      this.refit();
+      this.refitView();
     }
   }
 
   /** Fits again after data has arrived, unless the user has moved the camera or followed a frame. */
-  private refit(): void {
+  private refitView(): void {
     const { canvas, camera } = this.renderer;
     for (const event of ["pointerdown", "wheel"] as const)
       canvas.addEventListener(event, () => (this.cameraChosen = true), { once: true, passive: true });
@@ -434,7 +434,7 @@ export class View {
       if (!down || Math.hypot(event.clientX - down.x, event.clientY - down.y) > CLICK_PX) return;
       const frame = this.frameAt(event);
       if (this.tools.active) this.use(event, frame);
-      else if (!this.adjuster.hovered && !this.clickListeners.some((used) => used(event))) this.click(event, frame);
+      else if (!this.adjuster.isHovered && !this.clickListeners.some((used) => used(event))) this.click(event, frame);
     });
     canvas.addEventListener("dblclick", (event) => {
       if (!this.tools.active && event.button === 0) this.focus(event);
@@ -495,14 +495,14 @@ export class View {
 }
 
 /** The options that differ by more than the precision of the camera. */
-function changedNumbers(before: JsonObject, after: JsonObject): JsonObject {
+function findChanges(before: JsonObject, after: JsonObject): JsonObject {
   const changed: JsonObject = {};
   for (const [key, value] of Object.entries(after)) {
     const earlier = before[key];
     if (typeof value === "number" && typeof earlier === "number") {
       if (Math.abs(value - earlier) > CAMERA_PRECISION * Math.max(1, Math.abs(earlier))) changed[key] = value;
     } else if (isObject(value) && isObject(earlier)) {
-      const inner = changedNumbers(earlier, value);
+      const inner = findChanges(earlier, value);
       if (Object.keys(inner).length > 0) changed[key] = inner;
     } else if (value !== earlier) changed[key] = value;
   }
@@ -514,7 +514,7 @@ function isObject(value: Json | undefined): value is JsonObject {
 }
 
 /** Removes points that are far away from all others, so that `fit` shows the others. */
-function withoutOutliers(points: THREE.Vector3[]): THREE.Vector3[] {
+function removeOutliers(points: THREE.Vector3[]): THREE.Vector3[] {
   if (new THREE.Box3().setFromPoints(points).getSize(new THREE.Vector3()).length() < OUTLIER_SPAN_M) return points;
   const middle = (axis: "x" | "y" | "z"): number => median(points.map((point) => point[axis]));
   const center = new THREE.Vector3(middle("x"), middle("y"), middle("z"));

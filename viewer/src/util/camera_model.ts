@@ -105,9 +105,9 @@ function lensOf(camera: Intrinsics): Project | string {
   if (is("double_sphere", 2)) return doubleSphere(d);
   if (is("eucm", 2)) return enhancedUnified(d);
   if (is("omni", 5)) return omnidirectional(d);
-  if (is("fov", 1)) return flat(fieldOfView(d), Infinity);
+  if (is("fov", 1)) return planeLens(fieldOfView(d), Infinity);
   if (["plumb_bob", "rational_polynomial", ""].includes(model) && [0, 4, 5, 8, 12, 14].includes(d.length))
-    return d.every((value) => value === 0) ? flat((x, y) => [x, y], Infinity) : bounded(polynomial(d));
+    return d.every((value) => value === 0) ? planeLens((x, y) => [x, y], Infinity) : limitRadius(polynomial(d));
   return (
     `The distortion model “${model.slice(0, 40)}” with ${d.length} coefficients is not supported. ` +
     "Supported: plumb_bob, rational_polynomial, equidistant, double_sphere, eucm, omni, fov."
@@ -115,7 +115,7 @@ function lensOf(camera: Intrinsics): Project | string {
 }
 
 /** A lens that moves points of the plane at z = 1, up to a distance from the axis. */
-function flat(distort: Distort, radius: number): Project {
+function planeLens(distort: Distort, radius: number): Project {
   return (x, y, z) => {
     if (!(z > NEAREST_M)) return null;
     const [a, b] = [x / z, y / z];
@@ -176,7 +176,7 @@ function doubleSphere([xi, alpha]: readonly number[] | [number, number]): Projec
   return (x, y, z) => {
     const first = Math.hypot(x, y, z);
     const shifted = s * first + z;
-    return divided(x, y, a * Math.hypot(x, y, shifted) + (1 - a) * shifted, z > -w2 * first);
+    return divide(x, y, a * Math.hypot(x, y, shifted) + (1 - a) * shifted, z > -w2 * first);
   };
 }
 
@@ -185,7 +185,7 @@ function enhancedUnified([alpha, beta]: readonly number[]): Project {
   const w = a <= 0.5 ? a / (1 - a) : (1 - a) / a;
   return (x, y, z) => {
     const length = Math.sqrt(b * (x * x + y * y) + z * z);
-    return divided(x, y, a * length + (1 - a) * z, z > -w * length);
+    return divide(x, y, a * length + (1 - a) * z, z > -w * length);
   };
 }
 
@@ -194,7 +194,7 @@ function omnidirectional([xi, ...d]: readonly number[]): Project {
   const lowest = s <= 1 ? s : 1 / s;
   return (x, y, z) => {
     const length = Math.hypot(x, y, z);
-    const place = divided(x, y, z + s * length, z > -lowest * length);
+    const place = divide(x, y, z + s * length, z > -lowest * length);
     return place && distort(...place);
   };
 }
@@ -209,14 +209,14 @@ function fieldOfView([w]: readonly number[]): Distort {
   };
 }
 
-function divided(x: number, y: number, by: number, seen: boolean): [number, number] | null {
+function divide(x: number, y: number, by: number, seen: boolean): [number, number] | null {
   return seen && by > 0 ? [x / by, y / by] : null;
 }
 
 /** Finds the radius up to which points further from the axis are further from the center of the image, too. */
-function bounded(distort: Distort): Project {
+function limitRadius(distort: Distort): Project {
   const angle = turningPoint((at) => distort(Math.tan(at), 0)[0], Math.PI / 2 - ANGLE_STEP);
-  return flat(distort, Math.tan(angle));
+  return planeLens(distort, Math.tan(angle));
 }
 
 /** Returns the angle up to which a function increases. */

@@ -20,14 +20,14 @@ export function scaleColor(value: number, distinct: boolean): string {
 export function rgbOf(value: number, distinct: boolean): Color {
   const t = Math.max(0, Math.min(1, value));
   if (!distinct) return TURBO.map((c) => c.reduceRight((sum, part) => sum * t + part, 0)) as Color;
-  return mix(mix(BLUE, GRAY, smoothstep(0, 0.55, t)), YELLOW, smoothstep(0.45, 1, t));
+  return interpolateColor(interpolateColor(BLUE, GRAY, smoothstep(0, 0.55, t)), YELLOW, smoothstep(0.45, 1, t));
 }
 
 export function css(color: readonly number[]): string {
   return `rgb(${color.map((part) => Math.round(Math.max(0, Math.min(1, part)) * 255)).join(" ")})`;
 }
 
-function mix(a: Color, b: Color, part: number): Color {
+function interpolateColor(a: Color, b: Color, part: number): Color {
   return a.map((value, k) => value + ((b[k] as number) - value) * part) as Color;
 }
 

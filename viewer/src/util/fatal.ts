@@ -3,7 +3,7 @@
 
 import { byId, h } from "./dom";
 
-export function fatal(title: string, text: string): Error {
+export function showFatalError(title: string, text: string): Error {
   byId("overlay").append(h("div", { class: "empty-scene", role: "alert" }, h("h2", {}, title), h("p", {}, text)));
   return new Error(title);
 }

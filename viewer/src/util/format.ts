@@ -3,7 +3,7 @@
 
 const MINUS = "−";
 
-export function fixed(value: number, digits: number): string {
+export function formatFixed(value: number, digits: number): string {
   if (!Number.isFinite(value)) return "–";
   const text = value.toFixed(digits);
   const zero = Number(text) === 0;
@@ -11,7 +11,7 @@ export function fixed(value: number, digits: number): string {
 }
 
 /** Formats a number for the clipboard: ASCII, 12 significant digits. */
-export function plain(value: number): string {
+export function formatPlain(value: number): string {
   return Number.isFinite(value) ? String(Number(value.toPrecision(12))) : "nan";
 }
 
@@ -34,9 +34,9 @@ export function duration(seconds: number | null): string {
 export function meters(value: number): string {
   if (!Number.isFinite(value)) return "–";
   const size = Math.abs(value);
-  if (size >= 10000) return `${fixed(value / 1000, 2)} km`;
-  if (size >= 1 || size === 0) return `${fixed(value, 3)} m`;
-  return `${fixed(value * 1000, 1)} mm`;
+  if (size >= 10000) return `${formatFixed(value / 1000, 2)} km`;
+  if (size >= 1 || size === 0) return `${formatFixed(value, 3)} m`;
+  return `${formatFixed(value * 1000, 1)} mm`;
 }
 
 /** The local time of day; seconds for clocks that start near zero, such as those of simulators. */
@@ -69,7 +69,7 @@ export function count(n: number): string {
 }
 
 /** Sorts names without regard to case. Collation by locale would take the browser a noticeable time to load. */
-export function sorted(names: string[]): string[] {
+export function sortNames(names: string[]): string[] {
   const keys = new Map(names.map((name) => [name, name.toLowerCase()]));
   const order = (a: string, b: string): number => (a < b ? -1 : a > b ? 1 : 0);
   return [...names].sort((a, b) => order(keys.get(a) as string, keys.get(b) as string) || order(a, b));

@@ -56,7 +56,7 @@ export function inverse(a: Pose): Pose {
 /** Interpolates between two poses as native/core does: on a straight line, and on the shorter great arc (slerp). */
 export function interpolate(a: Pose, b: Pose, part: number): Pose {
   const [p, q] = [a.position, b.position];
-  const [rotation, other] = [a.quaternion, shorter(a.quaternion, b.quaternion)];
+  const [rotation, other] = [a.quaternion, nearestSign(a.quaternion, b.quaternion)];
   const [first, second] = arcWeights(rotation, other, part);
   const line = (k: 0 | 1 | 2): number => (1 - part) * p[k] + part * q[k];
   const arc = (k: 0 | 1 | 2 | 3): number => first * rotation[k] + second * other[k];
@@ -64,7 +64,7 @@ export function interpolate(a: Pose, b: Pose, part: number): Pose {
 }
 
 /** b or -b, which are the same rotation: the one that is nearer to a. */
-function shorter(a: Quaternion, [x, y, z, w]: Quaternion): Quaternion {
+function nearestSign(a: Quaternion, [x, y, z, w]: Quaternion): Quaternion {
   return a[0] * x + a[1] * y + a[2] * z + a[3] * w < 0 ? [-x, -y, -z, -w] : [x, y, z, w];
 }
 
@@ -81,7 +81,7 @@ function at(values: readonly number[], k: number): number {
 }
 
 /** The pose of `source` relative to `target`; both are expressed in the same frame. */
-export function relative(target: Pose, source: Pose): Pose {
+export function relativePose(target: Pose, source: Pose): Pose {
   return compose(inverse(target), source);
 }
 

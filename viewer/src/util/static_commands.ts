@@ -11,7 +11,7 @@ function number(value: number): string {
 }
 
 /** Quotes a name for a shell, if necessary; control characters as escapes, because a terminal acts on them. */
-export function quoted(name: string): string {
+export function quote(name: string): string {
   if (/^[\w./-]+$/.test(name)) return name;
   if (!/\p{Cc}/u.test(name)) return `'${name.replaceAll("'", `'\\''`)}'`;
   const escaped = name.replace(/[\\']/g, "\\$&").replace(/\p{Cc}/gu, (control) => {
@@ -23,7 +23,7 @@ export function quoted(name: string): string {
 
 export function staticCommands(parent: string, child: string, pose: Pose): { name: string; text: string }[] {
   const values = [...pose.position, ...pose.quaternion];
-  const frames = `--frame-id ${quoted(parent)} --child-frame-id ${quoted(child)}`;
+  const frames = `--frame-id ${quote(parent)} --child-frame-id ${quote(child)}`;
   const flags = FLAGS.map((flag, k) => `--${flag} ${number(values[k] as number)}`).join(" ");
   const rpy = rpyDegrees(pose.quaternion).map((angle) => number((angle * Math.PI) / 180));
   return [

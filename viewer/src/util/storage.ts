@@ -3,7 +3,7 @@
 
 const PREFIX = "coframe.";
 
-export function remembered<T>(key: string, fallback: T): T {
+export function loadStored<T>(key: string, fallback: T): T {
   try {
     const text = localStorage.getItem(PREFIX + key);
     if (text === null) return fallback;

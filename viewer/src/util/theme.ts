@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Dark and light themes, and a palette that is safe for color-blind users. */
 
-import { remember, remembered } from "./storage";
+import { remember, loadStored } from "./storage";
 
 export interface Palette {
   background: string;
@@ -29,8 +29,8 @@ export class Theme {
 
   constructor() {
     const preferred = matchMedia("(prefers-color-scheme: light)").matches ? "light" : "dark";
-    this.dark = remembered("theme", preferred) !== "light";
-    this.distinct = remembered("distinct", false);
+    this.dark = loadStored("theme", preferred) !== "light";
+    this.distinct = loadStored("distinct", false);
     this.apply();
   }
 
