@@ -8,12 +8,12 @@ const V = (x: number, y: number, z: number): THREE.Vector3 => new THREE.Vector3(
 const camera = { right: V(1, 0, 0), up: V(0, 1, 0), forward: V(0, 0, -1) };
 
 function start(mode: number, axis: THREE.Vector3, grabbed: THREE.Vector3): DragStart {
-  return { mode, axis, grabbed, camera, position: V(0, 0, 0), quaternion: new THREE.Quaternion() };
+  return { mode, axis, grabbedPoint: grabbed, camera, position: V(0, 0, 0), quaternion: new THREE.Quaternion() };
 }
 
 /** Drags to a point that the camera sees from above; pixels are hundredths of a meter. */
 function to(from: DragStart, x: number, y: number, shift = false): DraggedPose | null {
-  const moved = [(x - from.grabbed.x) * 100, (from.grabbed.y - y) * 100] as const;
+  const moved = [(x - from.grabbedPoint.x) * 100, (from.grabbedPoint.y - y) * 100] as const;
   return dragPose(from, { ray: new THREE.Ray(V(x, y, 10), V(0, 0, -1)), moved, shift });
 }
 

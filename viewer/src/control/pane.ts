@@ -29,14 +29,14 @@ export class ControlPane implements Pane {
   private readonly teleop: Teleop;
   private readonly name = h("input", { type: "text", list: "control-names", autocomplete: "off" });
   private readonly type = h("input", { type: "text", placeholder: "package/msg/Name", aria: { label: "Type" } });
-  private readonly names = h("datalist", { id: "control-names" });
-  private readonly act = h("button", { type: "submit", class: "primary" });
+  private readonly topicNames = h("datalist", { id: "control-names" });
+  private readonly publishButton = h("button", { type: "submit", class: "primary" });
   private readonly fields = h("div", { class: "control-fields" });
   private readonly form: HTMLFormElement;
   private readonly status = h("p", { class: "control-status", id: "control-status", role: "status" });
   private readonly answer = h("dl", { class: "facts", id: "control-answer" });
   private readonly inputs = new Map<string, { type: string; input: HTMLInputElement; initial: string }>();
-  private requested = 0;
+  private lastRequest = 0;
   private step: "names" | "form" | "act" = "names";
   private isOpen = false;
 
@@ -59,11 +59,19 @@ export class ControlPane implements Pane {
       h("label", { class: "field" }, h("span", {}, "Name"), this.name),
       h("label", { class: "field" }, h("span", {}, "Type"), this.type),
       this.fields,
-      h("div", { class: "buttons" }, this.act),
+      h("div", { class: "buttons" }, this.publishButton),
     );
     this.teleop = new Teleop(model);
     this.controls = [mode];
-    this.body = h("div", { class: "control" }, this.names, this.form, this.teleop.element, this.status, this.answer);
+    this.body = h(
+      "div",
+      { class: "control" },
+      this.topicNames,
+      this.form,
+      this.teleop.element,
+      this.status,
+      this.answer,
+    );
     model.on("controlled", (answer) => this.receive(answer));
     model.on("hello", () => this.isOpen && this.setMode(this.mode));
   }
@@ -94,8 +102,8 @@ export class ControlPane implements Pane {
       permitted ? "" : "Acting on the graph needs a permission. Start the viewer with: coframe view --control",
     );
     if (!permitted || mode === "drive") return;
-    setText(this.act, VERBS[mode]);
-    this.act.disabled = true;
+    setText(this.publishButton, VERBS[mode]);
+    this.publishButton.disabled = true;
     this.request("names");
   }
 
@@ -103,7 +111,7 @@ export class ControlPane implements Pane {
     if (this.mode === "drive") return;
     this.step = step;
     const name = step === "names" ? "" : this.name.value.trim();
-    this.model.send({ type: "control", id: ++this.requested, step, kind: this.mode, name, ros_type, values });
+    this.model.send({ type: "control", id: ++this.lastRequest, step, kind: this.mode, name, ros_type, values });
   }
 
   private requestForm(rosType: string): void {
@@ -112,14 +120,14 @@ export class ControlPane implements Pane {
   }
 
   private receive({ id, ok, text, hint, ros_type: rosType, fields }: Controlled): void {
-    if (id !== this.requested || !this.isOpen) return;
+    if (id !== this.lastRequest || !this.isOpen) return;
     this.status.dataset.state = ok ? "ok" : "error";
     if (!ok || this.step === "act") setText(this.status, shorten([text, hint].filter(Boolean).join(" "), 600));
     else setText(this.status, "");
-    if (this.step === "act") this.act.disabled = false;
+    if (this.step === "act") this.publishButton.disabled = false;
     if (!ok) return;
     if (this.step === "names") {
-      this.names.replaceChildren(...fields.map(({ path, type }) => new Option(type, path)));
+      this.topicNames.replaceChildren(...fields.map(({ path, type }) => new Option(type, path)));
     } else if (this.step === "form" || this.mode === "node") {
       if (this.mode !== "node") this.type.value = rosType;
       this.fill(fields);
@@ -143,7 +151,7 @@ export class ControlPane implements Pane {
         return h("label", { class: "field" }, h("span", { title: field.type }, shorten(field.path, 60)), input);
       }),
     );
-    this.act.disabled = false;
+    this.publishButton.disabled = false;
   }
 
   private submit(): void {
@@ -159,7 +167,7 @@ export class ControlPane implements Pane {
       }
     }
     if (this.mode === "node" && values.size === 0) return;
-    this.act.disabled = true;
+    this.publishButton.disabled = true;
     this.answer.replaceChildren();
     setText(this.status, "Waiting for the answer…");
     // The names of parameters contain dots themselves.

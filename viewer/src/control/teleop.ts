@@ -28,13 +28,19 @@ type Direction = readonly [forward: number, left: number, turn: number];
 export class Teleop {
   readonly element: HTMLElement;
   private readonly topic = h("input", { type: "text", value: "/cmd_vel", aria: { label: "Topic of the velocity" } });
-  private readonly speed = h("input", { type: "number", value: "0.3", min: "0", step: "0.1", aria: { label: "m/s" } });
+  private readonly speedInput = h("input", {
+    type: "number",
+    value: "0.3",
+    min: "0",
+    step: "0.1",
+    aria: { label: "m/s" },
+  });
   private readonly turn = h("input", { type: "number", value: "0.8", min: "0", step: "0.1", aria: { label: "rad/s" } });
   private readonly state = h("p", { class: "numbers", id: "drive-state", role: "status" }, "Standing still");
   private rosType = "geometry_msgs/msg/Twist";
-  private readonly held = new Map<string, Direction>();
+  private readonly heldKeys = new Map<string, Direction>();
   private timer = 0;
-  private moves = false;
+  private isMoving = false;
 
   constructor(private readonly model: Model) {
     const kinds = ["Twist", "TwistStamped"].map((name) => [`geometry_msgs/msg/${name}`, name] as const);
@@ -75,7 +81,7 @@ export class Teleop {
         "Type",
         select("Type of the velocity", kinds, this.rosType, (value) => (this.rosType = value)),
       ),
-      field("m/s", this.speed),
+      field("m/s", this.speedInput),
       field("rad/s", this.turn),
       pad,
       this.state,
@@ -85,20 +91,20 @@ export class Teleop {
 
   /** Stops the robot. */
   stop(): void {
-    this.held.clear();
+    this.heldKeys.clear();
     this.send();
     clearInterval(this.timer);
     this.timer = 0;
   }
 
   private hold(key: string, direction: Direction): void {
-    this.held.set(key, direction);
+    this.heldKeys.set(key, direction);
     this.send();
     this.start();
   }
 
   private release(key: string): void {
-    if (!this.held.delete(key)) return;
+    if (!this.heldKeys.delete(key)) return;
     this.send();
   }
 
@@ -107,12 +113,12 @@ export class Teleop {
   }
 
   private send(): void {
-    if (this.element.hidden && !this.moves) return;
+    if (this.element.hidden && !this.isMoving) return;
     const [forward, left, turn] = this.direction();
     const moves = forward !== 0 || left !== 0 || turn !== 0;
-    if (!moves && !this.moves) return; // The last message was zero.
-    this.moves = moves;
-    const [speed, rate] = [this.speed.valueAsNumber || 0, this.turn.valueAsNumber || 0];
+    if (!moves && !this.isMoving) return; // The last message was zero.
+    this.isMoving = moves;
+    const [speed, rate] = [this.speedInput.valueAsNumber || 0, this.turn.valueAsNumber || 0];
     const linear: [number, number] = [forward * speed, left * speed];
     const angular = turn * rate;
     this.model.send({ type: "drive", topic: this.topic.value.trim(), ros_type: this.rosType, linear, angular });
@@ -122,7 +128,8 @@ export class Teleop {
 
   private direction(): Direction {
     const sum = [0, 0, 0];
-    for (const direction of this.held.values()) direction.forEach((value, k) => (sum[k] = (sum[k] as number) + value));
+    for (const direction of this.heldKeys.values())
+      direction.forEach((value, k) => (sum[k] = (sum[k] as number) + value));
     const axis = (value: number | undefined): number => (Math.abs(value ?? 0) < DEAD_ZONE ? 0 : -(value ?? 0));
     const pad = this.element.hidden ? null : navigator.getGamepads().find((one) => one?.connected);
     // The left stick drives, the right one turns.

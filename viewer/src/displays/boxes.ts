@@ -74,7 +74,7 @@ export class RectanglesDisplay extends MessageDisplay<Shapes, RectangleClass> {
 
   /** The rectangles of the newest visible message; null if there is none. */
   newest(): RectanglesShape | null {
-    const { message } = [...this.drawn.values()].filter((entry) => entry.object.visible).at(-1) ?? {};
+    const { message } = [...this.drawnMessages.values()].filter((entry) => entry.object.visible).at(-1) ?? {};
     return message?.description.kind === "rectangles" ? message.description : null;
   }
 

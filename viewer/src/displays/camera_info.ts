@@ -8,7 +8,7 @@ import { MessageDisplay } from "./display";
 export class CameraDisplay extends MessageDisplay<Shapes, "CameraInfo"> {
   /** The intrinsics of the newest visible message and the pose of its frame in the scene; null if there is none. */
   newest(): { intrinsics: CameraShape; pose: THREE.Matrix4 } | null {
-    const { object, message } = [...this.drawn.values()].filter((entry) => entry.object.visible).at(-1) ?? {};
+    const { object, message } = [...this.drawnMessages.values()].filter((entry) => entry.object.visible).at(-1) ?? {};
     if (!object || message?.description.kind !== "camera") return null;
     object.updateMatrixWorld();
     return { intrinsics: message.description, pose: object.matrixWorld };

@@ -5,7 +5,7 @@ import * as THREE from "three";
 import { css, scaleColor } from "../util/color_scale";
 
 /** The colors of a cloud's points, from the attributes and uniforms of its shader. */
-export function cloudColors(cloud: THREE.Points, distinct: boolean): (i: number) => string {
+export function cloudColors(cloud: THREE.Points, useDistinctColors: boolean): (i: number) => string {
   const { geometry } = cloud;
   const { uniforms, defines } = cloud.material as THREE.ShaderMaterial;
   const value = <T>(name: string): T | undefined => uniforms[name]?.value as T | undefined;
@@ -23,7 +23,7 @@ export function cloudColors(cloud: THREE.Points, distinct: boolean): (i: number)
           .lerp(high, Math.max(0, Math.min(1, t)))
           .toArray(),
       );
-    return scaleColor(defines && "INVERTED" in defines ? t : 1 - t, distinct);
+    return scaleColor(defines && "INVERTED" in defines ? t : 1 - t, useDistinctColors);
   };
   if (scalar) return (i) => scaled(scalar.getX(i));
   const flat = value<THREE.Vector3>("flatColor")?.toArray() ?? [1, 1, 1];

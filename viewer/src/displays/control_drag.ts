@@ -13,7 +13,7 @@ export interface DragStart {
   position: THREE.Vector3;
   quaternion: THREE.Quaternion;
   /** The point at which the control was grabbed. */
-  grabbed: THREE.Vector3;
+  grabbedPoint: THREE.Vector3;
   /** The axes of the camera: right, up and the direction in which it looks. */
   camera: { right: THREE.Vector3; up: THREE.Vector3; forward: THREE.Vector3 };
 }
@@ -37,7 +37,7 @@ const MIN_ANGLE_SINE = 0.02;
 
 /** The pose of the marker; null if the pointer is at no valid point. */
 export function dragPose(start: DragStart, pointer: DragPointer): DraggedPose | null {
-  const { mode, axis, grabbed, camera } = start;
+  const { mode, axis, grabbedPoint: grabbed, camera } = start;
   switch (mode) {
     case MODE.moveAxis:
       return movePose(start, alongAxis(grabbed, axis, pointer.ray));
@@ -60,7 +60,10 @@ export function dragPose(start: DragStart, pointer: DragPointer): DraggedPose | 
   }
 }
 
-function movePose({ position, quaternion, grabbed }: DragStart, to: THREE.Vector3 | null): DraggedPose | null {
+function movePose(
+  { position, quaternion, grabbedPoint: grabbed }: DragStart,
+  to: THREE.Vector3 | null,
+): DraggedPose | null {
   return to && { position: position.clone().add(to).sub(grabbed), quaternion: quaternion.clone() };
 }
 
@@ -83,7 +86,7 @@ function projectToPlane(grabbed: THREE.Vector3, normal: THREE.Vector3, ray: THRE
 /** Turns the marker about the axis so that the grabbed point follows; `follows` also moves it there. */
 function turnPose(start: DragStart, to: THREE.Vector3 | null, follows: boolean): DraggedPose | null {
   if (!to) return null;
-  const { axis, position, quaternion, grabbed } = start;
+  const { axis, position, quaternion, grabbedPoint: grabbed } = start;
   const flat = (point: THREE.Vector3): THREE.Vector3 => point.clone().sub(position).projectOnPlane(axis);
   const [from, now] = [flat(grabbed), flat(to)];
   if (from.length() === 0 || now.length() === 0) return null;

@@ -20,7 +20,7 @@ export class DiagnosticsDisplay extends MessageDisplay<Shapes, "DiagnosticArray"
   );
   /** The names of the components whose values are shown. */
   private readonly open = new Set<string>();
-  private shown: Shapes | null = null;
+  private shownShapes: Shapes | null = null;
 
   constructor(id: number, config: DisplayConfig, context: Context) {
     super(id, config, context);
@@ -38,14 +38,14 @@ export class DiagnosticsDisplay extends MessageDisplay<Shapes, "DiagnosticArray"
   }
 
   protected override onPose(_object: THREE.Object3D, message: Shapes): void {
-    if (message === this.shown) return;
-    this.shown = message;
+    if (message === this.shownShapes) return;
+    this.shownShapes = message;
     this.render();
   }
 
   override clear(): void {
     super.clear();
-    this.shown = null;
+    this.shownShapes = null;
     this.render();
   }
 
@@ -60,12 +60,12 @@ export class DiagnosticsDisplay extends MessageDisplay<Shapes, "DiagnosticArray"
   }
 
   private render(): void {
-    const description = this.shown?.description;
+    const description = this.shownShapes?.description;
     const items = description?.kind === "diagnostics" ? description.items : [];
     const lowest = LOWEST_LEVEL[this.options.choice("Show")] ?? 0;
     const visible = items.filter(({ level }) => level >= lowest);
     this.body.replaceChildren(...visible.flatMap((item) => this.rows(item)));
-    this.figure.hidden = !this.shown;
+    this.figure.hidden = !this.shownShapes;
     const counts = LEVELS.map((name, level) => [items.filter((item) => item.level === level).length, name] as const);
     const summary = counts.filter(([count]) => count > 0).map(([count, name]) => `${count} ${name}`);
     setText(this.caption, [shorten(this.config.topic ?? this.config.name, 60), ...summary].join(" · "));

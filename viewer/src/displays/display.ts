@@ -121,11 +121,11 @@ export abstract class MessageDisplay<
   C extends DisplayClass = DisplayClass,
 > extends Display<C> {
   /** Removed objects whose resources are not freed yet. */
-  private readonly removed: THREE.Object3D[] = [];
+  private readonly removedObjects: THREE.Object3D[] = [];
   /** The number of removed objects at the last frame update. */
-  private removedBefore = 0;
+  private previouslyRemoved = 0;
   private origin: readonly number[] = [0, 0, 0];
-  protected readonly drawn = new Map<number, { object: THREE.Object3D; message: M }>();
+  protected readonly drawnMessages = new Map<number, { object: THREE.Object3D; message: M }>();
 
   /** How the server prepares the messages. */
   subscription(): DisplayOptions {
@@ -136,7 +136,7 @@ export abstract class MessageDisplay<
     this.removeMessage(message.sequence);
     const object = this.build(message as M);
     object.visible = false;
-    this.drawn.set(message.sequence, { object, message: message as M });
+    this.drawnMessages.set(message.sequence, { object, message: message as M });
     this.object.add(object);
     this.dropOldest();
   }
@@ -147,7 +147,7 @@ export abstract class MessageDisplay<
   protected onPose(_object: THREE.Object3D, _message: M): void {}
 
   override restyle(): void {
-    for (const entry of this.drawn.values()) {
+    for (const entry of this.drawnMessages.values()) {
       const { object } = entry;
       entry.object = this.build(entry.message);
       entry.object.position.copy(object.position);
@@ -165,7 +165,7 @@ export abstract class MessageDisplay<
     for (const entry of update.displays) if (entry.id === this.id) listed.set(entry.sequence, entry);
     this.origin = framePoses.origin;
     const newest = Math.max(-1, ...listed.keys());
-    for (const [sequence, { object, message }] of this.drawn) {
+    for (const [sequence, { object, message }] of this.drawnMessages) {
       const entry = listed.get(sequence);
       if (!entry) {
         object.visible = false;
@@ -184,7 +184,7 @@ export abstract class MessageDisplay<
 
   override bounds(): THREE.Box3 {
     const box = new THREE.Box3();
-    for (const { object } of this.drawn.values()) {
+    for (const { object } of this.drawnMessages.values()) {
       const own = object.visible ? new THREE.Box3().setFromObject(object) : box;
       if ([...own.min, ...own.max].every((value) => Math.abs(value) < MAX_FIT_COORDINATE_M)) box.union(own);
     }
@@ -193,7 +193,7 @@ export abstract class MessageDisplay<
 
   /** Adds the pose of each visible message, expressed in the fixed frame. */
   override probe(): Record<string, unknown> {
-    const shown = [...this.drawn.values()].filter(({ object }) => object.visible);
+    const shown = [...this.drawnMessages.values()].filter(({ object }) => object.visible);
     return {
       ...super.probe(),
       topic: this.config.topic,
@@ -207,14 +207,14 @@ export abstract class MessageDisplay<
   }
 
   override pick(hit: Hit): PickedPart | null {
-    for (const { object, message } of this.drawn.values())
+    for (const { object, message } of this.drawnMessages.values())
       if (isInside(hit.object, object)) return this.partAt(message, object, hit);
     return null;
   }
 
   override pickAll(inside: (point: THREE.Vector3) => boolean): PickedGroup {
     const group = super.pickAll(inside);
-    for (const { object, message } of this.drawn.values()) {
+    for (const { object, message } of this.drawnMessages.values()) {
       if (!object.visible) continue;
       for (const hit of this.partsOf(message, object)) {
         if (!inside(hit.point)) continue;
@@ -259,20 +259,20 @@ export abstract class MessageDisplay<
   }
 
   override dispose(): void {
-    this.drawn.clear();
-    for (const object of this.removed) release(object);
+    this.drawnMessages.clear();
+    for (const object of this.removedObjects) release(object);
     super.dispose();
   }
 
   clear(): void {
-    for (const sequence of [...this.drawn.keys()]) this.removeMessage(sequence);
+    for (const sequence of [...this.drawnMessages.keys()]) this.removeMessage(sequence);
   }
 
   private removeMessage(sequence: number): void {
-    const entry = this.drawn.get(sequence);
+    const entry = this.drawnMessages.get(sequence);
     if (!entry) return;
     this.removeObject(entry.object);
-    this.drawn.delete(sequence);
+    this.drawnMessages.delete(sequence);
   }
 
   /**
@@ -281,17 +281,17 @@ export abstract class MessageDisplay<
    */
   private removeObject(object: THREE.Object3D): void {
     object.removeFromParent();
-    this.removed.push(object);
+    this.removedObjects.push(object);
   }
 
   private freeRemoved(): void {
-    for (const object of this.removed.splice(0, this.removedBefore)) release(object);
-    this.removedBefore = this.removed.length;
+    for (const object of this.removedObjects.splice(0, this.previouslyRemoved)) release(object);
+    this.previouslyRemoved = this.removedObjects.length;
   }
 
   /** Limits the number of messages that no frame update lists. */
   private dropOldest(): void {
-    const waiting = [...this.drawn].filter(([, entry]) => !entry.object.visible);
+    const waiting = [...this.drawnMessages].filter(([, entry]) => !entry.object.visible);
     for (const [sequence] of waiting.slice(0, Math.max(0, waiting.length - MAX_WAITING))) this.removeMessage(sequence);
   }
 }

@@ -43,20 +43,20 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
   );
   private readonly ranges = new RangeFilter();
   private range: Range = [0, 1];
-  private normalized: Range = [0, 1];
-  private shown: Image | null = null;
+  private normalizedRange: Range = [0, 1];
+  private shownImage: Image | null = null;
   /** The name of the image's frame; null if the tree does not contain it. */
   private frame: string | null = null;
   private rectangles = 0;
   /** What the pointer is at. */
-  private pointed = "";
+  private pointedValue = "";
   /** Whether no other image is shown, so that this one has its full resolution. */
   alone = false;
   private readonly figure = h("figure", { hidden: true }, this.picture, this.caption);
-  private projectedAt = 0;
+  private projectionTime = 0;
   private problem = "";
   /** The sequence number of the message on the canvas, or of the one being decoded. */
-  private painted = -1;
+  private paintedSequence = -1;
 
   constructor(id: number, config: DisplayConfig, context: Context) {
     super(id, config, context);
@@ -78,15 +78,15 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
     super.restyle();
     this.figure.style.width = `${this.options.number("Width")}px`;
     this.updateCaption();
-    this.projectedAt = 0;
-    if (this.shown?.values) void this.paint(this.shown);
+    this.projectionTime = 0;
+    if (this.shownImage?.values) void this.paint(this.shownImage);
     if (this.projects) this.layers.append(this.overlay.canvas);
     else this.overlay.canvas.remove();
   }
 
   override receive(message: DisplayMessage): void {
     super.receive(message);
-    this.painted = -1;
+    this.paintedSequence = -1;
     if (message.kind === "image" && message.format === ImageFormat.video) this.video.feed(message.data);
   }
 
@@ -94,14 +94,14 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
     super.setPoses(framePoses, update);
     const own = update.displays.find(({ id }) => id === this.id);
     this.frame = own && own.frame >= 0 ? this.context.model.forest.name(own.frame) : null;
-    if ([...this.drawn.values()].some(({ object }) => object.visible)) return;
+    if ([...this.drawnMessages.values()].some(({ object }) => object.visible)) return;
     this.figure.hidden = true;
-    this.painted = -1;
+    this.paintedSequence = -1;
   }
 
   protected override onPose(_object: THREE.Object3D, message: Image): void {
-    if (message.sequence === this.painted) return;
-    this.painted = message.sequence;
+    if (message.sequence === this.paintedSequence) return;
+    this.paintedSequence = message.sequence;
     this.note = message.step > 1 ? `1 of ${message.step} rows and columns` : "";
     void this.paint(message);
   }
@@ -123,8 +123,8 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
   /** Draws frames, clouds and shapes above the image, after the poses of all displays are set. */
   project(displays: readonly Display[], framePoses: FramePoses, axisLength: number): void {
     const now = performance.now();
-    if (!this.projects || this.figure.hidden || now - this.projectedAt < PROJECTION_INTERVAL_MS) return;
-    this.projectedAt = now;
+    if (!this.projects || this.figure.hidden || now - this.projectionTime < PROJECTION_INTERVAL_MS) return;
+    this.projectionTime = now;
     this.problem = this.tryToProject(displays, framePoses, axisLength);
     if (this.problem) this.overlay.clear();
     this.updateCaption();
@@ -132,7 +132,7 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
 
   /** Draws the detected objects of this image's frame, after the poses of all displays are set. */
   markDetections(displays: readonly Display[]): void {
-    const { marks, canvas, shown } = this;
+    const { marks, canvas, shownImage: shown } = this;
     this.rectangles = 0;
     const found = this.options.flag("Project Detections")
       ? displays.filter(isRectangles).filter(({ config }) => config.enabled)
@@ -152,7 +152,7 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
 
   /** Shows the pixel under the pointer, in pixels of the full image. */
   private point(event: PointerEvent | null): void {
-    const { canvas, shown } = this;
+    const { canvas, shownImage: shown } = this;
     const bounds = canvas.getBoundingClientRect();
     const [x, y] = event
       ? [event.clientX - bounds.left, event.clientY - bounds.top].map((at, k) =>
@@ -161,7 +161,7 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
       : [-1, -1];
     const inside =
       shown && x !== undefined && y !== undefined && x >= 0 && y >= 0 && x < canvas.width && y < canvas.height;
-    this.pointed = inside
+    this.pointedValue = inside
       ? `(${x * shown.step}, ${y * shown.step}): ${valueAt(shown, x, y) ?? this.pixelColor(x, y)}`
       : "";
     this.updateCaption();
@@ -175,9 +175,9 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
 
   private updateCaption(): void {
     const zoomed = this.zoom.factor > 1 ? `${Math.round(this.zoom.factor * 100)} %` : "";
-    const range = this.shown?.values ? `${formatShort(this.range[0])} to ${formatShort(this.range[1])}` : "";
+    const range = this.shownImage?.values ? `${formatShort(this.range[0])} to ${formatShort(this.range[1])}` : "";
     const name = shorten(this.config.topic ?? this.config.name, 60) + (this.problem && `: ${this.problem}`);
-    setText(this.caption, [name, this.pointed || range, zoomed].filter(Boolean).join(" · "));
+    setText(this.caption, [name, this.pointedValue || range, zoomed].filter(Boolean).join(" · "));
   }
 
   private tryToProject(displays: readonly Display[], framePoses: FramePoses, axisLength: number): string {
@@ -216,7 +216,7 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
   override clear(): void {
     super.clear();
     this.figure.hidden = true;
-    this.painted = -1;
+    this.paintedSequence = -1;
   }
 
   override dispose(): void {
@@ -242,13 +242,13 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
   private async paint(message: Image): Promise<void> {
     const { canvas } = this;
     if (message.format === ImageFormat.video) {
-      this.shown = message;
+      this.shownImage = message;
       return;
     }
     try {
       const image = await this.decodeImage(message);
-      if (message.sequence !== this.painted) return; // A newer message has arrived.
-      this.shown = message;
+      if (message.sequence !== this.paintedSequence) return; // A newer message has arrived.
+      this.shownImage = message;
       [canvas.width, canvas.height] = [image.width, image.height];
       const context = canvas.getContext("2d");
       if (image instanceof ImageData) context?.putImageData(image, 0, 0);
@@ -268,7 +268,7 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
       [canvas.width, canvas.height] = [frame.displayWidth, frame.displayHeight];
     canvas.getContext("2d")?.drawImage(frame, 0, 0);
     frame.close();
-    if (this.painted >= 0) this.figure.hidden = false;
+    if (this.paintedSequence >= 0) this.figure.hidden = false;
     this.updateCaption();
   }
 
@@ -279,10 +279,10 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
       return createImageBitmap(new Blob([data], { type }));
     }
     const { options } = this;
-    if (values && message !== this.shown)
-      this.normalized = this.ranges.addRange(rangeOf(values), options.number("Median window"));
+    if (values && message !== this.shownImage)
+      this.normalizedRange = this.ranges.addRange(rangeOf(values), options.number("Median window"));
     const given: Range = [options.number("Min Value"), options.number("Max Value")];
-    this.range = options.flag("Normalize Range") ? this.normalized : given;
+    this.range = options.flag("Normalize Range") ? this.normalizedRange : given;
     return toColors(message, this.range);
   }
 }

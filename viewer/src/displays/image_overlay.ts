@@ -98,11 +98,11 @@ export class ImageOverlay {
     }
   }
 
-  private drawCloud(cloud: THREE.Points, pixel: number, distinct: boolean): void {
+  private drawCloud(cloud: THREE.Points, pixel: number, useDistinctColors: boolean): void {
     const context = this.context as CanvasRenderingContext2D;
     const inCamera = this.toCamera.clone().multiply(cloud.matrixWorld);
     const positions = cloud.geometry.getAttribute("position").array;
-    const colorOf = cloudColors(cloud, distinct);
+    const colorOf = cloudColors(cloud, useDistinctColors);
     const count = positions.length / 3;
     const step = Math.max(1, Math.ceil(count / MAX_POINTS));
     const width = POINT_PX * pixel;

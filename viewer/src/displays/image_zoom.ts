@@ -18,7 +18,7 @@ export class ImageZoom {
   constructor(
     private readonly frame: HTMLElement,
     private readonly content: HTMLElement,
-    private readonly changed: () => void,
+    private readonly onChange: () => void,
   ) {
     frame.addEventListener("wheel", (event) => this.onWheel(event), { passive: false });
     frame.addEventListener("pointerdown", (event) => {
@@ -60,6 +60,6 @@ export class ImageZoom {
     this.content.style.transform =
       this.factor === 1 ? "" : `translate(${this.left}px, ${this.top}px) scale(${this.factor})`;
     this.frame.classList.toggle("zoomed", this.factor > 1);
-    this.changed();
+    this.onChange();
   }
 }

@@ -78,7 +78,7 @@ export class Interaction {
       axis: faces ? forward.clone().negate() : new THREE.Vector3(1, 0, 0).applyQuaternion(own),
       position: control.marker.getWorldPosition(new THREE.Vector3()),
       quaternion: control.marker.getWorldQuaternion(new THREE.Quaternion()),
-      grabbed: point.clone(),
+      grabbedPoint: point.clone(),
       camera: {
         right: new THREE.Vector3(1, 0, 0).applyQuaternion(turn),
         up: new THREE.Vector3(0, 1, 0).applyQuaternion(turn),
@@ -120,7 +120,7 @@ export class Interaction {
     const mode = control.item.interaction_mode;
     const pose = control.display.dragged?.pose;
     if (moved && pose) this.send(control, "pose", null, pose);
-    if (!moved && mode === MODE.button) this.send(control, "button", drag.start.grabbed);
+    if (!moved && mode === MODE.button) this.send(control, "button", drag.start.grabbedPoint);
     this.send(control, "up", null, pose);
     if (!moved && mode === MODE.menu) this.openMenu(control, event);
     this.end();

@@ -62,7 +62,7 @@ export class InteractiveDisplay extends MessageDisplay<Shapes, "InteractiveMarke
 
   /** Moves a marker to a pose in its frame. */
   place(name: string, pose: readonly number[]): void {
-    for (const { object, message } of this.drawn.values()) {
+    for (const { object, message } of this.drawnMessages.values()) {
       if (message.description.kind !== "interactive" || message.description.name !== name) continue;
       const marker = object.children[0] as THREE.Object3D;
       marker.position.fromArray(pose);

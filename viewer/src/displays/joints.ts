@@ -140,7 +140,7 @@ export class TrajectoryDisplay extends JointsDisplay<"JointTrajectory"> {
   }
 
   /** Adds the path of each link that moves, relative to the root, and a line through the links at the end. */
-  private addPaths(drawn: THREE.Group, robot: RobotModel, poses: readonly Map<string, Pose>[]): void {
+  private addPaths(target: THREE.Group, robot: RobotModel, poses: readonly Map<string, Pose>[]): void {
     const color = this.options.color("Color");
     const alpha = this.options.number("Alpha");
     const material = new THREE.LineBasicMaterial({ color, transparent: alpha < 1, opacity: alpha });
@@ -154,18 +154,18 @@ export class TrajectoryDisplay extends JointsDisplay<"JointTrajectory"> {
       );
       if (length < MIN_PATH_M) continue;
       paths[name] = points;
-      drawn.add(line(points, material));
+      target.add(line(points, material));
     }
-    drawn.userData.paths = paths;
+    target.userData.paths = paths;
     const end = poses.at(-1);
     if (!end || !this.options.flag("Show End")) return;
     for (const { parent, child } of robot.joints) {
       const [from, to] = [end.get(parent), end.get(child)];
-      if (from && to) drawn.add(line([...from.position, ...to.position], material));
+      if (from && to) target.add(line([...from.position, ...to.position], material));
       if (!to || !(child in paths)) continue;
       const ball = new THREE.Mesh(new THREE.SphereGeometry(LINK_RADIUS_M, 12, 8), makeSolidMaterial(color, alpha));
       ball.position.fromArray(to.position);
-      drawn.add(ball);
+      target.add(ball);
     }
   }
 }

@@ -34,13 +34,13 @@ export class Displays {
   private readonly context: Context;
   private readonly listeners: (() => void)[] = [];
   /** Whether the displays are those of an .rviz file. */
-  private fromFile = false;
+  private areFromFile = false;
   /** The filters of the TF display that the model uses. */
   private filters = JSON.stringify(["", ""]);
   private nextId = 1;
   /** Whether new topics are displayed automatically, until the user or a file changes the list. */
-  private automatic = true;
-  private started = false;
+  private showsNewTopics = true;
+  private hasStarted = false;
 
   constructor(
     private readonly model: Model,
@@ -105,13 +105,13 @@ export class Displays {
 
   /** Adds a display that the user has chosen. */
   add(className: string, topic: string | null, name = className): void {
-    this.automatic = false;
+    this.showsNewTopics = false;
     this.create({ class: className, name: this.freeName(name), enabled: true, topic, options: {} });
     this.notifyChange();
   }
 
   remove(display: Display): void {
-    this.automatic = false;
+    this.showsNewTopics = false;
     this.drop(display);
     this.notifyChange();
   }
@@ -201,8 +201,8 @@ export class Displays {
 
   /** Replaces all displays by those of a file. */
   apply(rviz: RvizConfiguration): void {
-    this.automatic = false;
-    this.fromFile = true;
+    this.showsNewTopics = false;
+    this.areFromFile = true;
     for (const display of this.list) this.discard(display);
     this.list = [];
     this.groups = (rviz.groups ?? []).map((group) => ({ ...group }));
@@ -254,12 +254,12 @@ export class Displays {
   }
 
   private start(rviz: RvizConfiguration | null): void {
-    if (this.started) return;
-    this.started = true;
+    if (this.hasStarted) return;
+    this.hasStarted = true;
     const last = loadStored<DisplayConfig[]>("displays", []);
     if (rviz) this.apply(rviz);
     else if (Array.isArray(last) && last.length > 0 && last.every(isConfig)) {
-      this.automatic = false;
+      this.showsNewTopics = false;
       this.groups = loadStored<RvizGroup[]>("groups", []).filter(isGroup);
       for (const config of last) {
         const enabled = config.enabled && this.groupsEnabled(config.group);
@@ -276,7 +276,7 @@ export class Displays {
 
   /** Displays the topics that the server has chosen, which may change while topics appear. */
   private showOffered(topics: DisplayTopic[]): void {
-    if (!this.automatic || !this.started) return;
+    if (!this.showsNewTopics || !this.hasStarted) return;
     const chosen = new Set(topics.filter(({ automatic }) => automatic).map(({ topic }) => topic));
     const isReplaced = (display: Display): boolean =>
       display instanceof MessageDisplay && display.config.topic !== null && !chosen.has(display.config.topic);
@@ -306,14 +306,14 @@ export class Displays {
   rename(display: Display, name: string): void {
     const wanted = name.trim();
     if (!wanted || wanted === display.config.name) return;
-    this.automatic = false;
+    this.showsNewTopics = false;
     display.config.name = this.freeName(wanted);
     this.notifyChange();
   }
 
   /** Adds a display with the same topic and options after it. */
   duplicate(display: Display): void {
-    this.automatic = false;
+    this.showsNewTopics = false;
     const config = structuredClone(display.config);
     const made = this.create({ ...config, name: this.freeName(config.name) });
     if (made) {
@@ -328,7 +328,7 @@ export class Displays {
   move(display: Display, by: 1 | -1): void {
     const at = this.list.indexOf(display);
     const to = Math.max(0, Math.min(this.list.length - 1, at + by));
-    this.automatic = false;
+    this.showsNewTopics = false;
     this.list.splice(to, 0, ...this.list.splice(at, 1));
     this.notifyChange();
   }
@@ -349,7 +349,7 @@ export class Displays {
     if (display) display.setRobot(robot);
     else {
       const name = this.freeName("RobotModel");
-      const config = { class: "RobotModel", name, enabled: true, options: {}, added: this.fromFile };
+      const config = { class: "RobotModel", name, enabled: true, options: {}, added: this.areFromFile };
       const made = this.create({ ...config, topic: robot.description_topic });
       if (made instanceof RobotDisplay) made.setRobot(robot);
     }
@@ -407,7 +407,7 @@ export class Displays {
 
   private notifyChange(): void {
     this.chooseResolutions();
-    if (!this.automatic) {
+    if (!this.showsNewTopics) {
       remember("displays", this.save());
       remember("groups", this.groups);
     }

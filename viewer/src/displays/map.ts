@@ -16,7 +16,7 @@ export class MapDisplay extends MessageDisplay<Grid, "Map"> {
       super.receive(message);
       return;
     }
-    const entry = this.drawn.get(message.sequence);
+    const entry = this.drawnMessages.get(message.sequence);
     if (!entry) return;
     const { width, height, cells } = entry.message;
     if (message.x + message.width > width || message.y + message.height > height) return;

@@ -53,10 +53,10 @@ export class MarkersDisplay extends MessageDisplay<Shapes, "Marker" | "MarkerArr
     return !(all && typeof all === "object" && !Array.isArray(all) && Object.hasOwn(all, name) && all[name] === false);
   }
 
-  show(name: string, shown: boolean): void {
+  show(name: string, isShown: boolean): void {
     const all = this.config.options["Namespaces"];
     const others = all && typeof all === "object" && !Array.isArray(all) ? all : {};
-    this.config.options["Namespaces"] = { ...others, [name]: shown };
+    this.config.options["Namespaces"] = { ...others, [name]: isShown };
   }
 
   override receive(message: DisplayMessage): void {
@@ -182,7 +182,7 @@ function meshOf(item: DrawableMarker, tools: MarkerTools): THREE.Object3D {
     return group;
   }
   tools.meshes.load(item.mesh, item.mesh).then(
-    ({ object, colored }) => {
+    ({ object, hasColors: colored }) => {
       if (!(colored && item.use_materials !== false))
         object.traverse((part) => {
           if ((part as Partial<THREE.Mesh>).isMesh) (part as THREE.Mesh).material = material(item);

@@ -45,7 +45,7 @@ export class RobotDisplay extends Display<"RobotModel"> {
   private readonly problems: string[] = [];
   private origin: readonly number[] = [0, 0, 0];
   /** The links whose transforms are no longer received. */
-  private readonly stale = new Set<string>();
+  private readonly staleLinks = new Set<string>();
 
   constructor(
     id: number,
@@ -94,7 +94,7 @@ export class RobotDisplay extends Display<"RobotModel"> {
       textures,
       opacity: opaque,
       loading: this.loading,
-      stale: [...this.stale],
+      stale: [...this.staleLinks],
       visible,
       links: this.linkPoses(),
     };
@@ -154,8 +154,8 @@ export class RobotDisplay extends Display<"RobotModel"> {
 
   private rebuild(): void {
     const robot = this.robot as RobotModel;
-    const stale = [...this.stale];
-    this.stale.clear();
+    const stale = [...this.staleLinks];
+    this.staleLinks.clear();
     for (const name of stale) this.markLink(name); // So that the own materials are freed.
     release(this.model);
     this.model.removeFromParent();
@@ -199,11 +199,11 @@ export class RobotDisplay extends Display<"RobotModel"> {
     this.loading++;
     this.meshes
       .load(url, file)
-      .then(({ object, colored }) => {
+      .then(({ object, hasColors: colored }) => {
         if (colored) this.paint(object);
         else setMaterial(object, this.material(robot, shape));
         parent.add(object);
-        for (const name of this.stale) this.markLink(name);
+        for (const name of this.staleLinks) this.markLink(name);
       })
       .catch((error: unknown) => {
         if (model === this.model) this.problems.push(error instanceof Error ? error.message : String(error));
@@ -267,7 +267,7 @@ export class RobotDisplay extends Display<"RobotModel"> {
     const first = this.problems[0];
     const more = this.problems.length > 1 ? ` (and ${this.problems.length - 1} more)` : "";
     if (first) this.status = { state: "error", text: first + more };
-    else if (this.stale.size > 0) this.status = { state: "error", text: this.staleText() };
+    else if (this.staleLinks.size > 0) this.status = { state: "error", text: this.staleText() };
     else if (this.loading > 0) this.status = { state: "waiting", text: `Loading ${this.loading} meshes` };
     else this.status = { state: "ok", text: [this.robot?.name ?? "", ...(this.robot?.warnings ?? [])].join("; ") };
   }
@@ -275,10 +275,10 @@ export class RobotDisplay extends Display<"RobotModel"> {
   private staleText(): string {
     const { stats, forest } = this.context.model;
     const prefix = this.options.text("TF Prefix");
-    const ages = [...this.stale].map((link) => stats?.frames[forest.index.get(prefix + link) ?? -1]?.age ?? 0);
+    const ages = [...this.staleLinks].map((link) => stats?.frames[forest.index.get(prefix + link) ?? -1]?.age ?? 0);
     const age = Math.max(0, ...ages);
     const since = age > 0 ? ` for ${format.duration(age)}` : "";
-    return `No transform received${since}: ${this.stale.size} of ${this.links.size} links`;
+    return `No transform received${since}: ${this.staleLinks.size} of ${this.links.size} links`;
   }
 
   /** Shows which links are stale: the transform of their frame, or of a frame above it, is no longer received. */
@@ -291,18 +291,18 @@ export class RobotDisplay extends Display<"RobotModel"> {
       const state = update.states[i];
       const isStale =
         i >= 0 && (state === FrameState.stale || state === FrameState.gone || (framePoses.fade[i] ?? 0) > 0);
-      if (isStale === this.stale.has(name)) continue;
+      if (isStale === this.staleLinks.has(name)) continue;
       changed = true;
-      if (isStale) this.stale.add(name);
-      else this.stale.delete(name);
+      if (isStale) this.staleLinks.add(name);
+      else this.staleLinks.delete(name);
       this.markLink(name);
     }
-    if (changed || this.stale.size > 0) this.updateStatus();
+    if (changed || this.staleLinks.size > 0) this.updateStatus();
   }
 
   /** Draws a link in gray if it is stale, otherwise in its own colors. */
   private markLink(name: string): void {
-    const isStale = this.stale.has(name);
+    const isStale = this.staleLinks.has(name);
     this.links.get(name)?.traverse((part) => {
       const mesh = part as THREE.Mesh;
       if (!mesh.isMesh) return;

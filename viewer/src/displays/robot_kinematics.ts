@@ -19,23 +19,23 @@ export class Kinematics {
    *
    * @param root The pose of the root link.
    * @param positions Positions by joint, in radians or meters; other joints have their defaults or follow another joint.
-   * @param known Poses of links that differ from those of the joints, such as those of frames.
+   * @param knownPose Poses of links that differ from those of the joints, such as those of frames.
    */
-  poses(root: Pose, positions: Readonly<Record<string, number>>, known: KnownPose = () => null): Map<string, Pose> {
+  poses(root: Pose, positions: Readonly<Record<string, number>>, knownPose: KnownPose = () => null): Map<string, Pose> {
     const poses = new Map([[this.robot.root, root]]);
     for (const joint of this.robot.joints) {
       const parent = poses.get(joint.parent) ?? root;
-      poses.set(joint.child, known(joint.child) ?? compose(parent, this.jointPose(joint, positions)));
+      poses.set(joint.child, knownPose(joint.child) ?? compose(parent, this.jointPose(joint, positions)));
     }
     return poses;
   }
 
   /** The pose of the root link, derived from the first link whose pose is known; null if there is none. */
-  root(positions: Readonly<Record<string, number>>, known: KnownPose): Pose | null {
-    const own = known(this.robot.root);
+  root(positions: Readonly<Record<string, number>>, knownPose: KnownPose): Pose | null {
+    const own = knownPose(this.robot.root);
     if (own) return own;
     for (const [link, pose] of this.poses(IDENTITY, positions)) {
-      const found = known(link);
+      const found = knownPose(link);
       if (found) return compose(found, inverse(pose));
     }
     return null;

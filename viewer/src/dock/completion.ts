@@ -15,10 +15,10 @@ export class CompletedInput {
   readonly input: HTMLInputElement;
   private readonly list: HTMLElement;
   private items: string[] = [];
-  private chosen = -1;
-  private requested = 0;
+  private chosenIndex = -1;
+  private lastRequest = 0;
   /** The last request whose answer has arrived. */
-  private answered = 0;
+  private answeredRequest = 0;
   /** Whether the user has pressed Enter before the answer. */
   private enters = false;
 
@@ -47,22 +47,22 @@ export class CompletedInput {
     this.input.addEventListener("blur", () => this.show([]));
     this.input.addEventListener("keydown", (event) => this.key(event));
     model.on("completions", ({ id, items }) => {
-      if (id !== this.requested || document.activeElement !== this.input) return;
-      this.answered = id;
+      if (id !== this.lastRequest || document.activeElement !== this.input) return;
+      this.answeredRequest = id;
       this.show(items);
       if (this.enters) this.enter();
     });
   }
 
   private request(): void {
-    this.requested = ++lastId;
+    this.lastRequest = ++lastId;
     this.enters = false;
-    this.model.send({ type: "complete", id: this.requested, subject: this.kind, text: this.input.value });
+    this.model.send({ type: "complete", id: this.lastRequest, subject: this.kind, text: this.input.value });
   }
 
   private show(items: string[]): void {
     this.items = items.length === 1 && items[0] === this.input.value ? [] : items;
-    this.chosen = -1;
+    this.chosenIndex = -1;
     this.list.hidden = this.items.length === 0;
     this.input.setAttribute("aria-expanded", String(!this.list.hidden));
     this.input.removeAttribute("aria-activedescendant");
@@ -82,12 +82,12 @@ export class CompletedInput {
     event.stopPropagation();
     if (event.key === "ArrowDown" || event.key === "ArrowUp") {
       event.preventDefault();
-      if (this.items.length) this.choose(this.chosen + (event.key === "ArrowDown" ? 1 : -1));
-    } else if (event.key === "Tab" && this.chosen >= 0) {
+      if (this.items.length) this.choose(this.chosenIndex + (event.key === "ArrowDown" ? 1 : -1));
+    } else if (event.key === "Tab" && this.chosenIndex >= 0) {
       event.preventDefault();
-      this.acceptItem(this.items[this.chosen] ?? "");
+      this.acceptItem(this.items[this.chosenIndex] ?? "");
     } else if (event.key === "Enter") {
-      const item = this.items[this.chosen];
+      const item = this.items[this.chosenIndex];
       if (item !== undefined) this.acceptItem(item);
       else this.enter();
     } else if (event.key === "Escape") {
@@ -99,7 +99,7 @@ export class CompletedInput {
   /** Uses the text, or the first suggestion if the text is only a part of one. Waits for suggestions on their way. */
   private enter(): void {
     const text = this.input.value.trim();
-    this.enters = this.model.connected && this.answered !== this.requested;
+    this.enters = this.model.connected && this.answeredRequest !== this.lastRequest;
     if (this.enters) return;
     const first = this.items[0];
     if (text && first !== undefined && !this.items.includes(text)) this.acceptItem(first);
@@ -107,9 +107,11 @@ export class CompletedInput {
   }
 
   private choose(i: number): void {
-    this.chosen = (i + this.items.length) % this.items.length;
-    [...this.list.children].forEach((option, k) => option.setAttribute("aria-selected", String(k === this.chosen)));
-    const option = this.list.children[this.chosen];
+    this.chosenIndex = (i + this.items.length) % this.items.length;
+    [...this.list.children].forEach((option, k) =>
+      option.setAttribute("aria-selected", String(k === this.chosenIndex)),
+    );
+    const option = this.list.children[this.chosenIndex];
     option?.scrollIntoView({ block: "nearest" });
     this.input.setAttribute("aria-activedescendant", option?.id ?? "");
   }
@@ -123,7 +125,7 @@ export class CompletedInput {
 
   private finish(): void {
     const text = this.input.value.trim();
-    this.requested = 0;
+    this.lastRequest = 0;
     this.show([]);
     if (text) this.act(text);
   }

@@ -45,15 +45,15 @@ export class Dock {
     return this.sections.get(id)?.hidden === false;
   }
 
-  show(id: string, shown: boolean): void {
+  show(id: string, isShown: boolean): void {
     const pane = this.panes.find((one) => one.id === id);
     const section = this.sections.get(id);
-    if (!pane || !section || shown === this.isShown(id)) return;
+    if (!pane || !section || isShown === this.isShown(id)) return;
     // There is room for one panel on a phone.
-    if (shown && matchMedia(PHONE).matches) for (const other of this.panes) this.show(other.id, false);
-    section.hidden = !shown;
+    if (isShown && matchMedia(PHONE).matches) for (const other of this.panes) this.show(other.id, false);
+    section.hidden = !isShown;
     this.root.hidden = ![...this.sections.values()].some((one) => !one.hidden);
-    if (shown) pane.open();
+    if (isShown) pane.open();
     else pane.close();
     this.onChange(this.panes.map((one) => one.id).filter((one) => this.isShown(one)));
   }

@@ -27,18 +27,18 @@ export class LogPane implements Pane {
     role: "log",
     aria: { live: "off" },
   });
-  private readonly inner = h("div", { class: "log-inner" });
+  private readonly rowContainer = h("div", { class: "log-inner" });
   private readonly note = h("p", { class: "log-note", id: "log-note", role: "status" });
   private readonly nodes: HTMLSelectElement;
-  private readonly names = new Set<string>();
+  private readonly nodeNames = new Set<string>();
   private readonly filter: LogFilter = { level: "info", node: "", text: "" };
   private entries: LogEntry[] = [];
   private shown: LogEntry[] = [];
-  private omitted = 0;
+  private omittedCount = 0;
   private text = "";
   private isOpen = false;
   /** Whether the list follows the newest message. */
-  private follows = true;
+  private isFollowing = true;
   private drawing = 0;
   private current = -1;
 
@@ -58,18 +58,18 @@ export class LogPane implements Pane {
     const text = h("input", { type: "search", placeholder: "Filter", aria: { label: "Text in the log" } });
     text.addEventListener("input", () => this.setFilter({ text: text.value }));
     this.controls = [level, this.nodes, text];
-    this.list.append(this.inner);
+    this.list.append(this.rowContainer);
     this.body = h("div", { class: "log" }, this.note, this.list);
     this.list.addEventListener("scroll", () => {
       const { scrollTop, clientHeight, scrollHeight } = this.list;
-      this.follows = scrollTop + clientHeight >= scrollHeight - ROW_PX;
+      this.isFollowing = scrollTop + clientHeight >= scrollHeight - ROW_PX;
       this.schedule();
     });
     new ResizeObserver(() => this.schedule()).observe(this.list);
     model.on("log", ({ reset, entries, omitted, text: why }) => {
       if (!this.isOpen) return;
       if (reset) this.clear();
-      this.omitted += omitted;
+      this.omittedCount += omitted;
       this.text = why;
       this.add(entries);
     });
@@ -99,9 +99,9 @@ export class LogPane implements Pane {
   private clear(): void {
     this.entries = [];
     this.shown = [];
-    this.omitted = 0;
+    this.omittedCount = 0;
     this.text = "";
-    this.names.clear();
+    this.nodeNames.clear();
     this.fillNodes();
     this.schedule();
   }
@@ -119,17 +119,17 @@ export class LogPane implements Pane {
     const extra = this.entries.length - MAX_ENTRIES;
     if (extra > 0) {
       this.entries.splice(0, extra);
-      this.omitted += extra;
+      this.omittedCount += extra;
       this.shown = this.entries.filter((entry) => matchesFilter(entry, this.filter));
     }
-    const before = this.names.size;
-    for (const { node } of entries) if (this.names.size < MAX_NODES) this.names.add(node);
-    if (this.names.size !== before) this.fillNodes();
+    const before = this.nodeNames.size;
+    for (const { node } of entries) if (this.nodeNames.size < MAX_NODES) this.nodeNames.add(node);
+    if (this.nodeNames.size !== before) this.fillNodes();
     this.schedule();
   }
 
   private fillNodes(): void {
-    const names = format.sortNames([...this.names]);
+    const names = format.sortNames([...this.nodeNames]);
     fillSelect(this.nodes, [["", "all nodes"], ...names.map((name) => [name, name] as const)], this.filter.node);
     if (this.nodes.value !== this.filter.node) this.setFilter({ node: "" });
   }
@@ -137,7 +137,7 @@ export class LogPane implements Pane {
   private setFilter(change: Partial<LogFilter>): void {
     Object.assign(this.filter, change);
     this.shown = this.entries.filter((entry) => matchesFilter(entry, this.filter));
-    this.follows = true;
+    this.isFollowing = true;
     this.schedule();
   }
 
@@ -162,15 +162,15 @@ export class LogPane implements Pane {
 
   private draw(): void {
     const { shown, list } = this;
-    const omitted = this.omitted ? `${format.count(this.omitted)} older messages are not shown.` : "";
+    const omitted = this.omittedCount ? `${format.count(this.omittedCount)} older messages are not shown.` : "";
     const empty = shown.length ? "" : this.entries.length ? "No message passes the filters." : "No messages yet.";
     setText(this.note, [this.text || empty, omitted].filter(Boolean).join(" "));
-    this.inner.style.height = `${shown.length * ROW_PX}px`;
+    this.rowContainer.style.height = `${shown.length * ROW_PX}px`;
     const recorded = this.model.hello?.mode === "recording";
-    if (this.follows && !recorded) list.scrollTop = list.scrollHeight;
+    if (this.isFollowing && !recorded) list.scrollTop = list.scrollHeight;
     const first = Math.max(0, Math.floor(list.scrollTop / ROW_PX) - 2);
     const last = Math.min(shown.length, Math.ceil((list.scrollTop + list.clientHeight) / ROW_PX) + 2);
-    this.inner.replaceChildren(...shown.slice(first, last).map((entry, i) => this.row(entry, first + i)));
+    this.rowContainer.replaceChildren(...shown.slice(first, last).map((entry, i) => this.row(entry, first + i)));
   }
 
   private row(entry: LogEntry, i: number): HTMLElement {

@@ -27,18 +27,18 @@ export class MessagePane implements Pane {
   private readonly topic: CompletedInput;
   private readonly facts = h("p", { class: "message-facts", id: "message-facts", role: "status" });
   private readonly tree = h("ul", { class: "fields", id: "fields", aria: { label: "Fields of the message" } });
-  private readonly toggled = new Set<string>();
+  private readonly toggledFields = new Set<string>();
   private readonly rows = new Map<string, Row>();
   private inspection: Inspection | null = null;
   /** The rows that exist; they are made again only if this changes. */
   private shape = "";
-  private wanted: string;
+  private wantedTopic: string;
   private isOpen = false;
 
   constructor(private readonly model: Model) {
-    this.wanted = (linked("topic")[0] ?? loadStored("inspected", "")).slice(0, MAX_TEXT);
+    this.wantedTopic = (linked("topic")[0] ?? loadStored("inspected", "")).slice(0, MAX_TEXT);
     this.topic = new CompletedInput(model, "topic", "Topic to inspect", "/topic", (text) => this.inspect(text));
-    this.topic.input.value = this.wanted;
+    this.topic.input.value = this.wantedTopic;
     this.body = h("div", { class: "message" }, this.topic.element, this.facts, this.tree);
     model.on("inspect", (topic) => this.inspect(topic));
     model.on("inspection", (inspection) => this.show(inspection));
@@ -48,7 +48,7 @@ export class MessagePane implements Pane {
   open(): void {
     this.isOpen = true;
     this.request();
-    if (!this.wanted) this.topic.input.focus();
+    if (!this.wantedTopic) this.topic.input.focus();
   }
 
   close(): void {
@@ -62,7 +62,7 @@ export class MessagePane implements Pane {
       toast(`The name of this topic has more than ${MAX_TEXT} characters.`);
       return;
     }
-    this.topic.input.value = this.wanted = topic;
+    this.topic.input.value = this.wantedTopic = topic;
     remember("inspected", topic);
     link("topic", [topic]);
     this.request();
@@ -71,7 +71,7 @@ export class MessagePane implements Pane {
   private request(): void {
     if (!this.isOpen) return;
     this.clear();
-    this.model.send({ type: "inspect", topic: this.wanted });
+    this.model.send({ type: "inspect", topic: this.wantedTopic });
   }
 
   private clear(): void {
@@ -79,11 +79,11 @@ export class MessagePane implements Pane {
     this.shape = "";
     this.rows.clear();
     this.tree.replaceChildren();
-    setText(this.facts, this.wanted ? "" : "Choose a topic.");
+    setText(this.facts, this.wantedTopic ? "" : "Choose a topic.");
   }
 
   private show(inspection: Inspection): void {
-    if (!this.isOpen || inspection.topic !== this.wanted) return;
+    if (!this.isOpen || inspection.topic !== this.wantedTopic) return;
     this.inspection = inspection;
     const { message_type: type, rate, stamp, publishers, text, state } = inspection;
     const facts = [
@@ -100,7 +100,7 @@ export class MessagePane implements Pane {
 
   private refresh(): void {
     const fields = this.inspection?.fields ?? [];
-    const visible = visibleRows(fields, this.toggled);
+    const visible = visibleRows(fields, this.toggledFields);
     const shape = visible.map((i) => `${keyOf(fields[i] as InspectedField, i)} ${hasChildren(fields, i)}`).join("\n");
     if (shape !== this.shape) {
       this.shape = shape;
@@ -119,7 +119,7 @@ export class MessagePane implements Pane {
     const key = keyOf(field, i);
     const value = h("span", { class: "mono field-value" });
     const name = h("span", { class: "mono field-name" }, shorten(field.name, 80));
-    const open = isOpen(field, key, this.toggled);
+    const open = isOpen(field, key, this.toggledFields);
     const head = hasChildren(fields, i)
       ? h(
           "button",
@@ -149,7 +149,7 @@ export class MessagePane implements Pane {
   }
 
   private toggle(key: string): void {
-    if (!this.toggled.delete(key)) this.toggled.add(key);
+    if (!this.toggledFields.delete(key)) this.toggledFields.add(key);
     this.refresh();
     this.rows.get(key)?.element.querySelector("button")?.focus();
   }

@@ -13,19 +13,19 @@ export function hasChildren(fields: readonly InspectedField[], i: number): boole
 }
 
 /** A sequence with a value of its own, such as an array of numbers, is closed until the user opens it. */
-export function isOpen(field: InspectedField, key: string, toggled: ReadonlySet<string>): boolean {
-  return (field.text === "") !== toggled.has(key);
+export function isOpen(field: InspectedField, key: string, toggledFields: ReadonlySet<string>): boolean {
+  return (field.text === "") !== toggledFields.has(key);
 }
 
 /** The indices of the rows whose ancestors are all open. */
-export function visibleRows(fields: readonly InspectedField[], toggled: ReadonlySet<string>): number[] {
+export function visibleRows(fields: readonly InspectedField[], toggledFields: ReadonlySet<string>): number[] {
   const visible: number[] = [];
   let closedAt = Infinity;
   fields.forEach((field, i) => {
     if (field.depth > closedAt) return;
     closedAt = Infinity;
     visible.push(i);
-    if (hasChildren(fields, i) && !isOpen(field, keyOf(field, i), toggled)) closedAt = field.depth;
+    if (hasChildren(fields, i) && !isOpen(field, keyOf(field, i), toggledFields)) closedAt = field.depth;
   });
   return visible;
 }

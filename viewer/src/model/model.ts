@@ -193,7 +193,7 @@ export class Model extends Emitter<ModelEvents> {
   /** The last seek that is not yet visible in frame updates: its time, and when it was requested. */
   private seek: { at: number; since: number } | null = null;
   private passesFilter: (name: string) => boolean = () => true;
-  private soloShown = new Set<string>();
+  private framesShownSolo = new Set<string>();
 
   constructor(readonly send: (message: ClientMessage) => void) {
     super();
@@ -224,7 +224,7 @@ export class Model extends Emitter<ModelEvents> {
   }
 
   isShown(name: string): boolean {
-    if (this.solo !== null) return this.soloShown.has(name);
+    if (this.solo !== null) return this.framesShownSolo.has(name);
     return !this.hidden.has(name) && this.passesFilter(name);
   }
 
@@ -250,7 +250,7 @@ export class Model extends Emitter<ModelEvents> {
 
   updateSolo(): void {
     const i = this.solo === null ? undefined : this.forest.index.get(this.solo);
-    this.soloShown = new Set(i === undefined ? [] : this.forest.subtree(i).map((k) => this.forest.name(k)));
+    this.framesShownSolo = new Set(i === undefined ? [] : this.forest.subtree(i).map((k) => this.forest.name(k)));
   }
 
   setClock(change: Partial<Clock>, at?: number): void {
@@ -272,9 +272,9 @@ export class Model extends Emitter<ModelEvents> {
   private graphUsers = 0;
 
   /** Requests the graph of nodes and topics for one more part of the page, or for one less. */
-  countGraphUsers(used: boolean): void {
-    this.graphUsers = Math.max(0, this.graphUsers + (used ? 1 : -1));
-    if (used || this.graphUsers === 0) this.send({ type: "graph", shown: used });
+  countGraphUsers(isUsed: boolean): void {
+    this.graphUsers = Math.max(0, this.graphUsers + (isUsed ? 1 : -1));
+    if (isUsed || this.graphUsers === 0) this.send({ type: "graph", shown: isUsed });
   }
 
   /** Stores and announces a problem. */

@@ -25,16 +25,16 @@ export class GraphPane implements Pane {
   private readonly search = h("input", { type: "search", placeholder: "Filter", aria: { label: "Node or topic" } });
   private graph: NodeGraph | null = null;
   private isOpen = false;
-  private infrastructure = loadStored("graph-infrastructure", false);
+  private showsInfrastructure = loadStored("graph-infrastructure", false);
   private size = { width: 1, height: 1 };
   private view = { x: 0, y: 0, scale: 1 };
   /** Whether the user has moved or zoomed the graph. */
-  private moved = false;
+  private isMoved = false;
 
   constructor(private readonly model: Model) {
-    const all = h("input", { type: "checkbox", checked: this.infrastructure });
+    const all = h("input", { type: "checkbox", checked: this.showsInfrastructure });
     all.addEventListener("change", () => {
-      this.infrastructure = all.checked;
+      this.showsInfrastructure = all.checked;
       remember("graph-infrastructure", all.checked);
       this.draw();
     });
@@ -59,7 +59,7 @@ export class GraphPane implements Pane {
       this.draw();
     });
     model.on("hello", () => this.request());
-    new ResizeObserver(() => (this.moved ? this.place() : this.fit())).observe(this.svg);
+    new ResizeObserver(() => (this.isMoved ? this.place() : this.fit())).observe(this.svg);
   }
 
   open(): void {
@@ -83,7 +83,7 @@ export class GraphPane implements Pane {
 
   private draw(): void {
     if (!this.isOpen || !this.graph) return;
-    const arranged = arrange(this.graph, { infrastructure: this.infrastructure, text: this.search.value });
+    const arranged = arrange(this.graph, { infrastructure: this.showsInfrastructure, text: this.search.value });
     const problems = arranged.arrows.filter((arrow) => arrow.hasProblem).length;
     const facts = [
       this.graph.text || (arranged.boxes.length ? "" : "Nothing to show."),
@@ -98,7 +98,7 @@ export class GraphPane implements Pane {
       ...arranged.arrows.map((arrow) => this.arrow(arrow)),
       ...arranged.boxes.map((box) => this.box(box)),
     );
-    if (this.moved) this.place();
+    if (this.isMoved) this.place();
     else this.fit();
   }
 
@@ -150,7 +150,7 @@ export class GraphPane implements Pane {
     const { width, height } = this.size;
     const scale = Math.min(1.2, clientWidth / width, clientHeight / height);
     this.view = { x: (clientWidth - width * scale) / 2, y: (clientHeight - height * scale) / 2, scale };
-    this.moved = false;
+    this.isMoved = false;
     this.place();
   }
 
@@ -158,7 +158,7 @@ export class GraphPane implements Pane {
     const scale = Math.max(MIN_SCALE, Math.min(MAX_SCALE, this.view.scale * factor));
     const ratio = scale / this.view.scale;
     this.view = { x: x - (x - this.view.x) * ratio, y: y - (y - this.view.y) * ratio, scale };
-    this.moved = true;
+    this.isMoved = true;
     this.place();
   }
 
@@ -182,8 +182,8 @@ export class GraphPane implements Pane {
       const begin = { ...this.view };
       const move = (at: PointerEvent): void => {
         const [dx, dy] = [at.clientX - event.clientX, at.clientY - event.clientY];
-        if (!this.moved && Math.hypot(dx, dy) < CLICK_PX) return;
-        this.moved = true;
+        if (!this.isMoved && Math.hypot(dx, dy) < CLICK_PX) return;
+        this.isMoved = true;
         this.view = { ...begin, x: begin.x + dx, y: begin.y + dy };
         this.place();
       };

@@ -20,7 +20,7 @@ export class AdjustPanel {
   private readonly commands: { text: HTMLElement; label: HTMLElement }[] = [];
   private mode: GizmoMode = "translate";
   /** Whether the transform was sent to the server, which has not confirmed it yet. */
-  private sent = false;
+  private isSent = false;
 
   constructor(
     root: HTMLElement,
@@ -53,8 +53,8 @@ export class AdjustPanel {
     for (const event of ["tree", "hello"] as const) model.on(event, () => this.show());
     model.on("published", ({ topic, subscribers }) => {
       const { current } = adjuster;
-      if (!current || !this.sent) return;
-      this.sent = false;
+      if (!current || !this.isSent) return;
+      this.isSent = false;
       const others = "If another node publishes this transform, its next message replaces yours.";
       toast(
         `Published ${current.parent} → ${current.child} on ${topic} (${subscribers} subscriptions).`,
@@ -74,14 +74,14 @@ export class AdjustPanel {
 
   private reset(): void {
     const { adjuster } = this.view;
-    if (adjuster.current) adjuster.set(adjuster.current.original);
+    if (adjuster.current) adjuster.set(adjuster.current.originalPose);
   }
 
   private send(): void {
     const { current } = this.view.adjuster;
     if (!current) return;
     const { parent, child, pose } = current;
-    this.sent = true;
+    this.isSent = true;
     this.model.send({
       type: "publish_static",
       parent,
@@ -100,7 +100,7 @@ export class AdjustPanel {
     this.start.setAttribute("aria-pressed", String(current !== null));
     this.body.hidden = current === null;
     if (!current) return;
-    const { parent, child, pose, original } = current;
+    const { parent, child, pose, originalPose: original } = current;
     const moved = format.meters(distance(original.position, pose.position));
     const angles = rpyDegrees(relativePose(original, pose).quaternion).map((angle) => format.formatFixed(angle, 2));
     setText(

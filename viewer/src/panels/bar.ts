@@ -28,12 +28,12 @@ export class Bar {
   private readonly title = h("span", { class: "source-title" });
   private readonly state = h("span");
   private readonly pill = h("span", { class: "pill", role: "status", data: { state: "off" } });
-  private readonly fixed: HTMLSelectElement;
-  private names = "";
+  private readonly fixedFrameSelect: HTMLSelectElement;
+  private shownNames = "";
   /** The Fixed Frame of the user's last session, until this frame exists. */
-  private remembered = "";
+  private lastSessionFrame = "";
   /** The Fixed Frame that the user has chosen in this session. */
-  private chosen = "";
+  private chosenFrame = "";
 
   constructor(
     root: HTMLElement,
@@ -41,19 +41,19 @@ export class Bar {
     actions: BarActions,
     live: boolean,
   ) {
-    this.fixed = select("Fixed Frame", [], "", (frame) => {
+    this.fixedFrameSelect = select("Fixed Frame", [], "", (frame) => {
       model.setFixed(frame);
-      this.chosen = frame;
+      this.chosenFrame = frame;
       remember("fixed", frame);
     });
-    this.fixed.id = "fixed";
+    this.fixedFrameSelect.id = "fixed";
     this.pill.append(h("span", { class: "dot" }), this.state);
     root.append(
       iconButton("menu", "Show or hide the panel (b)", actions.togglePanel),
       h("h1", { class: "brand" }, brandMark(), h("span", { class: "wide-only" }, "coframe")),
       this.title,
       h("span", { class: "spacer" }),
-      h("label", {}, h("span", {}, "Fixed Frame"), this.fixed),
+      h("label", {}, h("span", {}, "Fixed Frame"), this.fixedFrameSelect),
       this.pill,
       ...(live ? [iconButton("folder", "Open a file", actions.open)] : []),
       ...(actions.panes.length ? [menu("chart", "Panels", actions.panes)] : []),
@@ -74,7 +74,7 @@ export class Bar {
       const title = shorten(hello.title, 200);
       setText(this.title, title);
       document.title = title ? `${title} – coframe` : "coframe";
-      this.remembered = this.chosen || (hello.fixed_is_given ? "" : loadStored("fixed", ""));
+      this.lastSessionFrame = this.chosenFrame || (hello.fixed_is_given ? "" : loadStored("fixed", ""));
     });
     model.on("tree", () => this.rebuildOptions());
     model.on("fixed", () => this.rebuildOptions());
@@ -86,21 +86,21 @@ export class Bar {
 
   private rebuildOptions(): void {
     const { forest, fixed } = this.model;
-    if (this.remembered && this.remembered !== fixed && forest.index.has(this.remembered)) {
-      const frame = this.remembered;
-      this.remembered = "";
+    if (this.lastSessionFrame && this.lastSessionFrame !== fixed && forest.index.has(this.lastSessionFrame)) {
+      const frame = this.lastSessionFrame;
+      this.lastSessionFrame = "";
       this.model.setFixed(frame);
       return;
     }
     const names = format.sortNames(forest.frames.map((frame) => frame.name));
     if (fixed && !forest.index.has(fixed)) names.unshift(fixed);
     const key = JSON.stringify(names);
-    if (key !== this.names) {
-      this.names = key;
+    if (key !== this.shownNames) {
+      this.shownNames = key;
       const options = names.map((name) => [name, name] as const);
-      fillSelect(this.fixed, options.length ? options : [["", "No frames yet"]], fixed);
+      fillSelect(this.fixedFrameSelect, options.length ? options : [["", "No frames yet"]], fixed);
     }
-    this.fixed.value = fixed;
+    this.fixedFrameSelect.value = fixed;
   }
 
   private showState(): void {

@@ -92,14 +92,14 @@ export class DisplaysPanel {
   }
 
   /** Places a card in the order of the list, below the head of its group, which appears with its first display. */
-  private place(card: HTMLElement, source: string | undefined, placed: Map<HTMLElement, number>): void {
+  private place(card: HTMLElement, source: string | undefined, placedCounts: Map<HTMLElement, number>): void {
     const group = source ? this.displays.groups.find((other) => other.source === source) : undefined;
     const body = group ? this.groupBody(group) : this.cards;
-    if (group && !placed.has(body)) this.place(body.parentElement as HTMLElement, group.group, placed);
-    const at = placed.get(body) ?? 0;
+    if (group && !placedCounts.has(body)) this.place(body.parentElement as HTMLElement, group.group, placedCounts);
+    const at = placedCounts.get(body) ?? 0;
     const there = body.children[at] ?? null;
     if (there !== card) body.insertBefore(card, there);
-    placed.set(body, at + 1);
+    placedCounts.set(body, at + 1);
   }
 
   /** The element that contains the cards of a group, which is made when it is first used. */

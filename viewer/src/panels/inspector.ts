@@ -25,11 +25,11 @@ export class Inspector {
   private readonly blocks: Record<"xyz" | "quaternion" | "rpy" | "matrix", HTMLElement[]>;
   private readonly command = h("pre", { class: "command" });
   private relation: Relation | null = null;
-  private requested = 0;
-  private waiting = false;
+  private lastRequest = 0;
+  private isWaiting = false;
   private requestId = 0;
   private chainText = "";
-  private names = "";
+  private shownNames = "";
 
   constructor(
     private readonly root: HTMLElement,
@@ -81,7 +81,7 @@ export class Inspector {
     model.on("tree", () => this.fillReference());
     model.on("fixed", () => this.request(true));
     model.on("relation", (relation) => this.receive(relation));
-    model.on("connected", () => (this.waiting = false));
+    model.on("connected", () => (this.isWaiting = false));
     view.onDrawn((update) => {
       if (update) this.request(false);
     });
@@ -105,8 +105,8 @@ export class Inspector {
     const { forest, selection } = this.model;
     const names = format.sortNames(forest.frames.map((frame) => frame.name));
     const key = JSON.stringify(names);
-    if (key !== this.names) {
-      this.names = key;
+    if (key !== this.shownNames) {
+      this.shownNames = key;
       fillSelect(this.reference, [["", "Fixed Frame"], ...names.map((name) => [name, name] as const)], "");
     }
     this.reference.value = selection.reference ?? "";
@@ -119,16 +119,18 @@ export class Inspector {
     if (
       frame === null ||
       (!now &&
-        (this.waiting ? time - this.requested < RESPONSE_TIMEOUT_MS : time - this.requested < REQUEST_INTERVAL_MS))
+        (this.isWaiting
+          ? time - this.lastRequest < RESPONSE_TIMEOUT_MS
+          : time - this.lastRequest < REQUEST_INTERVAL_MS))
     )
       return;
-    this.requested = time;
-    this.waiting = true;
+    this.lastRequest = time;
+    this.isWaiting = true;
     this.model.send({ type: "relate", id: ++this.requestId, target: this.targetFrame, source: frame });
   }
 
   private receive(relation: Relation): void {
-    if (relation.id === this.requestId) this.waiting = false;
+    if (relation.id === this.requestId) this.isWaiting = false;
     if (relation.source !== this.model.selection.frame || relation.target !== this.targetFrame) return;
     this.relation = relation;
     const t = relation.translation;

@@ -14,7 +14,7 @@ export class JointsPanel {
   readonly element: HTMLElement;
   private readonly body = h("div");
   private readonly positions = new Map<string | number, Record<string, number>>();
-  private readonly publishing = new Set<string | number>();
+  private readonly publishingRobots = new Set<string | number>();
   private readonly timers = new Map<string | number, number>();
   private shown = "";
 
@@ -58,8 +58,8 @@ export class JointsPanel {
     const rows = movable.map((joint) => this.row(display, robot, joint, positions));
     const publish = h("input", { type: "checkbox", disabled: !this.model.hello?.can_publish });
     publish.addEventListener("change", () => {
-      if (publish.checked) this.publishing.add(robot.id);
-      else this.publishing.delete(robot.id);
+      if (publish.checked) this.publishingRobots.add(robot.id);
+      else this.publishingRobots.delete(robot.id);
       this.send(display, robot);
     });
     const set = (value: (joint: MovableJoint) => number): void => {
@@ -135,7 +135,7 @@ export class JointsPanel {
 
   /** Applies the positions to the page immediately, and sends them to the server at a limited rate. */
   private send(display: RobotDisplay, robot: RobotModel): void {
-    const publish = this.publishing.has(robot.id);
+    const publish = this.publishingRobots.has(robot.id);
     const positions = this.positions.get(robot.id) ?? {};
     // Published positions return as transforms, for example from robot_state_publisher.
     display.setJoints({ ...positions }, !publish);
@@ -146,14 +146,14 @@ export class JointsPanel {
         type: "joints",
         robot: robot.id,
         positions: { ...positions },
-        publish: this.publishing.has(robot.id),
+        publish: this.publishingRobots.has(robot.id),
       });
     }, SEND_INTERVAL_MS);
     this.timers.set(robot.id, timer);
   }
 
   private release(display: RobotDisplay, robot: RobotModel): void {
-    this.publishing.delete(robot.id);
+    this.publishingRobots.delete(robot.id);
     this.positions.delete(robot.id);
     display.setJoints(Object.fromEntries(movableJoints(robot).map((joint) => [joint.name, joint.value])), false);
     this.model.send({ type: "joints", robot: robot.id, positions: {}, publish: false });

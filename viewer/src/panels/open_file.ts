@@ -14,12 +14,12 @@ const NOT_POSSIBLE = "This viewer does not open files, because a program shows i
 export class FileOpener {
   private readonly dialog: HTMLDialogElement;
   private readonly input = h("input", { type: "file", hidden: true });
-  private readonly together = h("input", { type: "checkbox", checked: true });
-  private readonly recent = h("ul", { class: "list", id: "recent" });
+  private readonly togetherCheckbox = h("input", { type: "checkbox", checked: true });
+  private readonly recentList = h("ul", { class: "list", id: "recent" });
   private readonly drop = h("div", { class: "drop-target", hidden: true }, "Drop to open");
   private readonly progress = h("div", { class: "upload", role: "status", id: "upload", hidden: true });
   /** What is being sent: the bytes of all files, and how many of them were sent. */
-  private sending: { content: Blob; names: string; sent: number } | null = null;
+  private upload: { content: Blob; names: string; sent: number } | null = null;
 
   /** `sendBytes` sends a binary message, and `openRviz` opens an .rviz file, which the server only parses. */
   constructor(
@@ -51,9 +51,9 @@ export class FileOpener {
           "Files can also be dropped anywhere on the page.",
         ),
         h("button", { type: "button", class: "primary", on: { click: () => this.input.click() } }, "Choose files…"),
-        h("label", { class: "check" }, this.together, "Several recordings start together"),
+        h("label", { class: "check" }, this.togetherCheckbox, "Several recordings start together"),
         h("h3", {}, "Recent"),
-        this.recent,
+        this.recentList,
       ),
     );
     document.body.append(this.dialog, this.input, this.drop, this.progress);
@@ -72,7 +72,7 @@ export class FileOpener {
 
   private showRecent(): void {
     const sources = this.model.hello?.recent ?? [];
-    this.recent.replaceChildren(
+    this.recentList.replaceChildren(
       ...sources.map(({ id, name, is_shown: shown }) => {
         const open = (): void => {
           this.model.send({ type: "open_recent", id });
@@ -94,17 +94,17 @@ export class FileOpener {
       return;
     }
     const names = others.map(({ name }) => shorten(name, 60)).join(", ");
-    this.sending = { content: new Blob(others), names, sent: 0 };
+    this.upload = { content: new Blob(others), names, sent: 0 };
     this.model.send({
       type: "open_files",
       files: others.map(({ name, size }) => ({ name, size })),
-      together: this.together.checked,
+      together: this.togetherCheckbox.checked,
     });
   }
 
   /** Sends the next part of the files after the server has stored the previous one. */
   private async sendNextPart({ state, received, total, text, hint }: UploadProgress): Promise<void> {
-    const { sending } = this;
+    const { upload: sending } = this;
     if (!sending) return;
     if (state !== "receiving") {
       this.end();
@@ -126,7 +126,7 @@ export class FileOpener {
   }
 
   private end(): void {
-    this.sending = null;
+    this.upload = null;
     this.progress.hidden = true;
   }
 

@@ -18,18 +18,18 @@ const NO_GRAPHICS =
 
 export class Overlay {
   private readonly orbit: HTMLButtonElement;
-  private readonly top: HTMLButtonElement;
-  private readonly follow: HTMLButtonElement;
+  private readonly topButton: HTMLButtonElement;
+  private readonly followButton: HTMLButtonElement;
   private readonly ruler: HTMLButtonElement;
-  private readonly another: HTMLButtonElement;
-  private readonly selecting: HTMLButtonElement;
-  private readonly focusing: HTMLButtonElement;
+  private readonly newPaneButton: HTMLButtonElement;
+  private readonly selectButton: HTMLButtonElement;
+  private readonly focusButton: HTMLButtonElement;
   private readonly hint = h("div", { class: "hint numbers", role: "status", id: "measured", hidden: true });
-  private readonly following = h("div", { class: "hint", hidden: true });
+  private readonly followHint = h("div", { class: "hint", hidden: true });
   private readonly fps = h("div", { class: "fps numbers" });
-  private readonly empty: HTMLElement;
+  private readonly emptyHint: HTMLElement;
   private shownMode: CameraMode = "orbit";
-  private emptyClosed = false;
+  private isEmptyHintClosed = false;
   private noticeTimer = 0;
   private fpsUpdated = 0;
 
@@ -45,21 +45,21 @@ export class Overlay {
       { type: "button", title: "Orbit view (v)", on: { click: () => this.setMode("orbit") } },
       "3D",
     );
-    this.top = h(
+    this.topButton = h(
       "button",
       { type: "button", title: "Top-down view (v)", on: { click: () => this.setMode("top") } },
       "Top",
     );
-    this.follow = iconButton("target", "Follow the selected frame (f)", () => this.toggleFollow());
+    this.followButton = iconButton("target", "Follow the selected frame (f)", () => this.toggleFollow());
     this.ruler = iconButton("ruler", "Measure between two frames or points (m, n)", () => this.toggleMeasure());
-    this.selecting = iconButton("select", "Select: click anything, or drag a rectangle (k)", () =>
+    this.selectButton = iconButton("select", "Select: click anything, or drag a rectangle (k)", () =>
       view.tools.toggle("select"),
     );
-    this.focusing = iconButton("focus", "Look at the point that is clicked next (z), or double-click it", () =>
+    this.focusButton = iconButton("focus", "Look at the point that is clicked next (z), or double-click it", () =>
       view.tools.toggle("focus"),
     );
-    this.another = iconButton("plus", "Add a view: from above, around or out of a frame", () => this.addView());
-    this.empty = h(
+    this.newPaneButton = iconButton("plus", "Add a view: from above, around or out of a frame", () => this.addView());
+    this.emptyHint = h(
       "div",
       { class: "empty-scene", hidden: true },
       h("h2", {}, "No transforms yet"),
@@ -70,22 +70,22 @@ export class Overlay {
     );
     root.append(
       this.hint,
-      this.following,
+      this.followHint,
       h(
         "div",
         { class: "view-tools", role: "toolbar", aria: { label: "View" } },
         this.orbit,
-        this.top,
+        this.topButton,
         iconButton("fit", "Show everything (a)", () => view.fit()),
-        this.follow,
-        this.focusing,
-        this.selecting,
+        this.followButton,
+        this.focusButton,
+        this.selectButton,
         this.ruler,
         iconButton("camera", "Numbers of the view, and saved views (w)", onViews),
-        this.another,
+        this.newPaneButton,
       ),
       this.fps,
-      this.empty,
+      this.emptyHint,
     );
     for (const event of ["connected", "silent"] as const) model.on(event, () => this.updateNotice());
     view.renderer.onLost(() => this.updateNotice());
@@ -127,14 +127,14 @@ export class Overlay {
     const { camera } = this.view.renderer;
     this.shownMode = camera.mode;
     this.orbit.setAttribute("aria-pressed", String(camera.mode !== "top"));
-    this.top.setAttribute("aria-pressed", String(camera.mode === "top"));
-    this.follow.setAttribute("aria-pressed", String(this.view.followed !== null));
-    this.follow.disabled = this.view.followed === null && this.model.selection.frame === null;
+    this.topButton.setAttribute("aria-pressed", String(camera.mode === "top"));
+    this.followButton.setAttribute("aria-pressed", String(this.view.followed !== null));
+    this.followButton.disabled = this.view.followed === null && this.model.selection.frame === null;
     const { active } = this.view.tools;
     for (const [button, tool] of [
       [this.ruler, "measure"],
-      [this.selecting, "select"],
-      [this.focusing, "focus"],
+      [this.selectButton, "select"],
+      [this.focusButton, "focus"],
     ] as const)
       button.setAttribute("aria-pressed", String(active === tool));
   }
@@ -143,12 +143,12 @@ export class Overlay {
     const { measure, followed } = this.view;
     this.hint.hidden = !measure.active;
     if (measure.active) setText(this.hint, measure.text());
-    this.following.hidden = followed === null;
-    if (followed !== null) setText(this.following, `Following ${shorten(followed, 40)}`);
+    this.followHint.hidden = followed === null;
+    if (followed !== null) setText(this.followHint, `Following ${shorten(followed, 40)}`);
     const pressed = String(followed !== null);
     const changed = this.shownMode !== this.view.renderer.camera.mode;
-    if (changed || this.follow.getAttribute("aria-pressed") !== pressed) this.updateButtons();
-    this.another.disabled = this.view.panes.count >= MAX_PANES;
+    if (changed || this.followButton.getAttribute("aria-pressed") !== pressed) this.updateButtons();
+    this.newPaneButton.disabled = this.view.panes.count >= MAX_PANES;
     const now = performance.now();
     if (now - this.fpsUpdated < FPS_INTERVAL_MS) return;
     this.fpsUpdated = now;
@@ -156,13 +156,13 @@ export class Overlay {
   }
 
   private closeEmpty(): void {
-    this.emptyClosed = true;
+    this.isEmptyHintClosed = true;
     this.updateEmpty();
   }
 
   private updateEmpty(): void {
     const { forest, hello, robots } = this.model;
-    this.empty.hidden = this.emptyClosed || forest.frames.length > 0 || !hello || robots.size > 0;
+    this.emptyHint.hidden = this.isEmptyHintClosed || forest.frames.length > 0 || !hello || robots.size > 0;
   }
 
   private updateNotice(): void {

@@ -15,7 +15,7 @@ export class PartsPanel {
   private readonly title = h("h2");
   private readonly list = h("div", { class: "part-list" });
   private readonly details = h("div", { id: "part" });
-  private chosen: PickedPart | null = null;
+  private chosenPart: PickedPart | null = null;
   private answer: PartDetails | null = null;
 
   /** In a replay, which is not `live`, no server has more values of a part. */
@@ -63,7 +63,7 @@ export class PartsPanel {
   }
 
   private choose(part: PickedPart | null): void {
-    this.chosen = part;
+    this.chosenPart = part;
     this.answer = null;
     if (part?.source && this.live) {
       this.model.send({ type: "pick", ...part.source });
@@ -72,14 +72,14 @@ export class PartsPanel {
   }
 
   private receive(answer: PartDetails): void {
-    const source = this.chosen?.source;
+    const source = this.chosenPart?.source;
     if (answer.id !== source?.id || answer.sequence !== source.sequence) return;
     this.answer = answer;
     this.fill();
   }
 
   private fill(): void {
-    const { chosen: part, answer } = this;
+    const { chosenPart: part, answer } = this;
     if (!part) {
       this.details.replaceChildren();
       return;

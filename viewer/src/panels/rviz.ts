@@ -18,7 +18,7 @@ const MAX_FILE_SIZE = 900_000; // bytes
 
 export class RvizPanel {
   readonly element: HTMLElement;
-  private readonly unknown = h("ul", { class: "list", id: "unknown" });
+  private readonly unknownList = h("ul", { class: "list", id: "unknown" });
   private readonly unknownSection: HTMLElement;
   private readonly views = h("div", { class: "buttons", id: "file-views" });
   private readonly viewsSection = h(
@@ -27,16 +27,16 @@ export class RvizPanel {
     h("h3", {}, "Saved views of the file"),
     this.views,
   );
-  private readonly ignored = h("ul", { class: "list", id: "ignored" });
+  private readonly ignoredList = h("ul", { class: "list", id: "ignored" });
   private readonly ignoredSection: HTMLElement;
   private readonly file = h("input", { type: "file", accept: ".rviz,.yaml,.yml", hidden: true });
   private name = "coframe.rviz";
-  private started = false;
+  private hasStarted = false;
   /** The text of the file that was opened, also in the last session with these displays; "" if none was. */
-  private source = loadStored("rviz", "");
-  private loading: string | null = null;
+  private fileText = loadStored("rviz", "");
+  private loadingName: string | null = null;
   /** Whether the displays are those of a file. */
-  private loaded = this.source !== "";
+  private isFileLoaded = this.fileText !== "";
 
   constructor(
     private readonly model: Model,
@@ -52,7 +52,7 @@ export class RvizPanel {
       { class: "section", hidden: true },
       h("h3", {}, "Unsupported parts"),
       h("p", {}, "These parts of the file are not displayed. They are preserved when you save the file."),
-      this.unknown,
+      this.unknownList,
     );
     this.ignoredSection = h(
       "div",
@@ -63,7 +63,7 @@ export class RvizPanel {
         {},
         "The viewer does not have these options, tools and panels. They are preserved when you save the file.",
       ),
-      this.ignored,
+      this.ignoredList,
     );
     this.element = h(
       "section",
@@ -91,21 +91,21 @@ export class RvizPanel {
     );
     model.on("hello", (hello) => {
       // Later ones, for example after a jump back in time, must not move the camera.
-      if (hello.rviz && !this.started) {
-        this.loaded = true;
-        this.source = "";
+      if (hello.rviz && !this.hasStarted) {
+        this.isFileLoaded = true;
+        this.fileText = "";
         remember("rviz", "");
         this.applyGlobals(hello.rviz);
-      } else if (!hello.rviz && this.source) {
+      } else if (!hello.rviz && this.fileText) {
         // A server that was started again, or another connection, does not have the file, which it needs for saving.
-        model.send({ type: "load_rviz", text: this.source, restore: true });
+        model.send({ type: "load_rviz", text: this.fileText, restore: true });
       }
-      this.started = true;
+      this.hasStarted = true;
     });
     model.on("rviz", (rviz) => {
-      this.loaded = true;
-      if (this.loading !== null) this.source = this.loading;
-      remember("rviz", this.source);
+      this.isFileLoaded = true;
+      if (this.loadingName !== null) this.fileText = this.loadingName;
+      remember("rviz", this.fileText);
       displays.apply(rviz);
       this.applyGlobals(rviz);
       toast(`Loaded ${rviz.displays.length} displays.`, null, "info");
@@ -117,7 +117,7 @@ export class RvizPanel {
 
   save(): void {
     // The background of the theme is not that of a file.
-    const background = this.loaded ? this.theme.background : this.theme.palette().background;
+    const background = this.isFileLoaded ? this.theme.background : this.theme.palette().background;
     const global: JsonObject = { fixed_frame: this.model.fixed };
     if (background) global.background = [1, 3, 5].map((at) => Number.parseInt(background.slice(at, at + 2), 16));
     this.model.send({
@@ -149,8 +149,8 @@ export class RvizPanel {
       return;
     }
     this.name = file.name;
-    this.loading = await file.text();
-    this.model.send({ type: "load_rviz", text: this.loading });
+    this.loadingName = await file.text();
+    this.model.send({ type: "load_rviz", text: this.loadingName });
   }
 
   /** Applies everything except the displays: global options, view, hidden frames and the list of unsupported parts. */
@@ -164,7 +164,7 @@ export class RvizPanel {
     this.hideFrames(rviz);
     this.listIgnored(rviz);
     this.unknownSection.hidden = rviz.unknown.length === 0;
-    this.unknown.replaceChildren(
+    this.unknownList.replaceChildren(
       ...rviz.unknown
         .slice(0, MAX_LISTED)
         .map(({ path, class: kind, name }) =>
@@ -192,7 +192,7 @@ export class RvizPanel {
       const detail = shorten(`${path}: ${value}`, 120);
       return h("li", {}, shorten(name, 80), h("div", { class: "muted mono" }, detail));
     });
-    this.ignored.replaceChildren(...rows);
+    this.ignoredList.replaceChildren(...rows);
   }
 
   /** Hides the frames that the TF display disables: `Frames: {All Enabled: true, some_frame: {Value: false}}`. */

@@ -107,9 +107,9 @@ export class Panel {
     this.show(document.body.classList.contains("no-panel"));
   }
 
-  private show(shown: boolean): void {
-    document.body.classList.toggle("no-panel", !shown);
-    if (!matchMedia(PHONE).matches) remember("panel-shown", shown);
+  private show(isShown: boolean): void {
+    document.body.classList.toggle("no-panel", !isShown);
+    if (!matchMedia(PHONE).matches) remember("panel-shown", isShown);
   }
 
   private key(event: KeyboardEvent, i: number): void {

@@ -17,13 +17,13 @@ const ZOOM = 1.25;
 
 export class Timeline {
   private readonly play: HTMLButtonElement;
-  private readonly live: HTMLButtonElement;
+  private readonly liveButton: HTMLButtonElement;
   private readonly loop: HTMLButtonElement;
   private readonly sparklinesButton: HTMLButtonElement;
   private readonly time = h("button", { type: "button", class: "time numbers", id: "time" });
   private readonly times: TimesDialog;
   /** The part of the span that is shown after zooming; null for all of it. */
-  private zoomed: [number, number] | null = null;
+  private zoomedSpan: [number, number] | null = null;
   private readonly canvas = h("canvas", {
     tabindex: "0",
     role: "slider",
@@ -38,7 +38,7 @@ export class Timeline {
   private message: TimelineMessage | null = null;
   private edges: Edge[] = [];
   private sum: ArrayLike<number> = [];
-  private requested = 0;
+  private requestedTime = 0;
   private drawing = 0;
   private dragging: number | null = null;
   /** The start of the loop while the user selects it by dragging with Shift. */
@@ -53,7 +53,7 @@ export class Timeline {
     this.times.onChange(() => this.redraw());
     this.time.addEventListener("click", () => this.times.show());
     this.play = iconButton("pause", "Pause or play (Space)", () => this.toggle());
-    this.live = h(
+    this.liveButton = h(
       "button",
       { type: "button", class: "small", title: "Back to live (l)", on: { click: () => this.goLive() } },
       "Live",
@@ -79,7 +79,7 @@ export class Timeline {
         iconButton("back", "Previous message (,)", () => this.step(-1)),
         this.play,
         iconButton("forward", "Next message (.)", () => this.step(1)),
-        this.live,
+        this.liveButton,
         ...(reset ? [resetButton(reset)] : []),
         this.loop,
         speed,
@@ -125,7 +125,7 @@ export class Timeline {
   /** The span that the timeline shows. */
   private get shownSpan(): [number, number] | null {
     const { span } = this.model;
-    return this.zoomed && span && !this.model.clock.live ? this.zoomed : span;
+    return this.zoomedSpan && span && !this.model.clock.live ? this.zoomedSpan : span;
   }
 
   /** Shows a larger or smaller part of the span around a time. */
@@ -135,8 +135,8 @@ export class Timeline {
     const from = Math.max(span[0], at - (at - shown[0]) * factor);
     const to = Math.min(span[1], at + (shown[1] - at) * factor);
     if (to - from < MIN_ZOOM_NS) return;
-    this.zoomed = from <= span[0] && to >= span[1] ? null : [from, to];
-    this.requested = 0;
+    this.zoomedSpan = from <= span[0] && to >= span[1] ? null : [from, to];
+    this.requestedTime = 0;
     this.redraw();
     this.followPlayhead();
   }
@@ -156,7 +156,7 @@ export class Timeline {
     this.sparklines.hidden = !this.sparklines.hidden;
     remember("sparks", !this.sparklines.hidden);
     this.updateButtons();
-    this.requested = 0;
+    this.requestedTime = 0;
     this.redraw();
   }
 
@@ -164,9 +164,9 @@ export class Timeline {
   private start(): void {
     const { hello } = this.model;
     this.message = null;
-    this.zoomed = null;
+    this.zoomedSpan = null;
     const recorded = hello?.mode === "recording" || hello?.mode === "replay";
-    this.live.hidden = recorded;
+    this.liveButton.hidden = recorded;
     const [span, at] = [hello?.span, this.model.playhead];
     const isOutside = !span || !(at >= span[0] && at <= span[1]);
     if (recorded && (this.model.clock.live || isOutside))
@@ -194,10 +194,10 @@ export class Timeline {
     const now = performance.now();
     const [from, to] = this.shownSpan ?? span;
     const { message } = this;
-    const isShown = this.zoomed === null || (message?.from === Math.round(from) && message.to === Math.round(to));
+    const isShown = this.zoomedSpan === null || (message?.from === Math.round(from) && message.to === Math.round(to));
     const current = message?.revision === this.model.forest.revision && isShown;
-    if (now - this.requested > REQUEST_INTERVAL_MS && to > from && (this.model.clock.live || !current)) {
-      this.requested = now;
+    if (now - this.requestedTime > REQUEST_INTERVAL_MS && to > from && (this.model.clock.live || !current)) {
+      this.requestedTime = now;
       this.model.send({ type: "timeline", from: Math.round(from), to: Math.round(to), bins: BINS });
     }
     setText(this.time, format.stamp(this.model.origin, update.time));
@@ -209,7 +209,7 @@ export class Timeline {
     const span = this.shownSpan;
     const at = this.dragging ?? this.model.frameUpdate?.time ?? NaN;
     const part = span && span[1] > span[0] ? (at - span[0]) / (span[1] - span[0]) : NaN;
-    const isOutside = this.zoomed !== null && !(part >= 0 && part <= 1);
+    const isOutside = this.zoomedSpan !== null && !(part >= 0 && part <= 1);
     this.playhead.hidden = (!Number.isFinite(part) || isOutside) && !this.model.clock.live;
     const shown = this.model.clock.live ? 1 : Math.max(0, Math.min(1, part));
     this.playhead.style.left = `${(shown * 100).toFixed(3)}%`;
@@ -223,7 +223,7 @@ export class Timeline {
     const running = live || playing;
     this.play.replaceChildren(icon(running ? "pause" : "play"));
     this.play.setAttribute("aria-label", running ? "Pause" : "Play");
-    this.live.setAttribute("aria-pressed", String(live));
+    this.liveButton.setAttribute("aria-pressed", String(live));
     this.loop.setAttribute("aria-pressed", String(loop !== null));
     this.sparklinesButton.setAttribute("aria-expanded", String(!this.sparklines.hidden));
     this.sparklinesButton.style.transform = this.sparklines.hidden ? "rotate(-90deg)" : "rotate(90deg)";
@@ -316,8 +316,8 @@ export class Timeline {
       { passive: false },
     );
     canvas.addEventListener("dblclick", () => {
-      this.zoomed = null;
-      this.requested = 0;
+      this.zoomedSpan = null;
+      this.requestedTime = 0;
       this.redraw();
     });
     canvas.addEventListener("pointerdown", (event) => {

@@ -29,7 +29,7 @@ export class Toolbar {
   private readonly instruction = h("span");
   private readonly topic = h("input", { type: "text", aria: { label: "Topic of the tool" } });
   /** The last message that was sent. */
-  private sent: { topic: string; what: string } | null = null;
+  private lastSent: { topic: string; what: string } | null = null;
 
   constructor(
     root: HTMLElement,
@@ -53,10 +53,10 @@ export class Toolbar {
     model.on("hello", () => this.updateButtons());
     model.on("fixed", () => this.updateButtons());
     model.on("published", ({ topic, subscribers }) => {
-      if (this.sent?.topic !== topic) return;
+      if (this.lastSent?.topic !== topic) return;
       const nodes = subscribers === 1 ? "1 subscription" : `${subscribers} subscriptions`;
       toast(
-        `Published on ${topic}: ${this.sent.what}.`,
+        `Published on ${topic}: ${this.lastSent.what}.`,
         subscribers ? nodes : `No node subscribes to ${topic}.`,
         "info",
       );
@@ -74,14 +74,14 @@ export class Toolbar {
     const topic = this.settings.topic(tool);
     const covariance = tool === "estimate" ? { covariance: this.settings.variances } : {};
     const degrees = format.formatFixed((yaw * 180) / Math.PI, 1);
-    this.sent = { topic, what: `${coordinates(position)}, yaw ${degrees}° in ${fixed}` };
+    this.lastSent = { topic, what: `${coordinates(position)}, yaw ${degrees}° in ${fixed}` };
     this.model.send({ type: "publish_pose", topic, frame: fixed, position, yaw, ...covariance });
   }
 
   private publishPoint(point: Vector): void {
     const { fixed } = this.model;
     const topic = this.settings.topic("point");
-    this.sent = { topic, what: `${coordinates(point)} in ${fixed}` };
+    this.lastSent = { topic, what: `${coordinates(point)} in ${fixed}` };
     this.model.send({ type: "publish_point", topic, frame: fixed, point });
   }
 

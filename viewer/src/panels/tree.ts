@@ -40,11 +40,11 @@ export class TreePanel {
   readonly element: HTMLElement;
   private readonly search: HTMLInputElement;
   private readonly list: HTMLElement;
-  private readonly inner: HTMLElement;
-  private readonly empty: HTMLElement;
+  private readonly rowContainer: HTMLElement;
+  private readonly emptyNote: HTMLElement;
   private readonly summary: HTMLElement;
   private readonly pool: RowElements[] = [];
-  private readonly collapsed = new Set<string>();
+  private readonly collapsedFrames = new Set<string>();
   private rows: Row[] = [];
 
   constructor(private readonly model: Model) {
@@ -55,7 +55,7 @@ export class TreePanel {
       id: "search",
       on: { input: () => this.rebuild() },
     });
-    this.inner = h("div", { class: "tree-inner", role: "presentation" });
+    this.rowContainer = h("div", { class: "tree-inner", role: "presentation" });
     this.list = h(
       "div",
       {
@@ -65,9 +65,9 @@ export class TreePanel {
         aria: { label: "Frames" },
         on: { scroll: () => this.render(), keydown: (event) => this.key(event) },
       },
-      this.inner,
+      this.rowContainer,
     );
-    this.empty = h("div", { class: "empty" });
+    this.emptyNote = h("div", { class: "empty" });
     this.summary = h("span", { class: "muted numbers" });
     this.element = h(
       "section",
@@ -80,7 +80,7 @@ export class TreePanel {
         h("button", { type: "button", class: "small", on: { click: () => this.hideAll() } }, "Hide all"),
       ),
       this.list,
-      this.empty,
+      this.emptyNote,
       h("div", { class: "tree-foot" }, this.summary, legend()),
     );
     model.on("tree", () => this.rebuild());
@@ -127,12 +127,12 @@ export class TreePanel {
         const size = forest.components[forest.frames[frame]?.component ?? 0]?.size;
         const tree = several && depth === 0 ? `separate tree${size ? ` · ${size} frames` : ""}` : null;
         this.rows.push({ frame, depth, hasChildren: children.length > 0, tree });
-        if (this.collapsed.has(forest.name(frame)) && !kept) continue;
+        if (this.collapsedFrames.has(forest.name(frame)) && !kept) continue;
         for (let k = children.length - 1; k >= 0; k--) stack.push({ frame: children[k] as number, depth: depth + 1 });
       }
     };
     forest.roots.forEach(walk);
-    this.inner.style.height = `${this.rows.length * ROW_PX}px`;
+    this.rowContainer.style.height = `${this.rows.length * ROW_PX}px`;
     this.summarize(several);
     this.updateEmpty(text);
     this.render();
@@ -150,19 +150,20 @@ export class TreePanel {
     return kept;
   }
 
-  private summarize(several: boolean): void {
+  private summarize(severalTrees: boolean): void {
     const { frames, roots } = this.model.forest;
-    const trees = several ? ` in ${roots.length} trees` : "";
+    const trees = severalTrees ? ` in ${roots.length} trees` : "";
     setText(this.summary, frames.length ? `${format.count(frames.length)} frames${trees}` : "");
   }
 
   private updateEmpty(text: string): void {
-    this.empty.hidden = this.rows.length > 0;
+    this.emptyNote.hidden = this.rows.length > 0;
     this.list.hidden = this.rows.length === 0;
-    if (!this.model.connected && !this.model.hello) this.empty.replaceChildren("Connecting…");
-    else if (text && this.model.forest.frames.length) this.empty.replaceChildren(`No frame name contains “${text}”.`);
+    if (!this.model.connected && !this.model.hello) this.emptyNote.replaceChildren("Connecting…");
+    else if (text && this.model.forest.frames.length)
+      this.emptyNote.replaceChildren(`No frame name contains “${text}”.`);
     else
-      this.empty.replaceChildren(
+      this.emptyNote.replaceChildren(
         h("strong", {}, "No transforms yet"),
         h("p", {}, "No messages received on /tf or /tf_static. In another terminal, run"),
         h("code", {}, "coframe demo"),
@@ -221,7 +222,7 @@ export class TreePanel {
       h("div", { class: "cells" }, row.name, row.tag, row.rate, row.publisher, row.age),
       row.solo,
     );
-    this.inner.append(row.element);
+    this.rowContainer.append(row.element);
     return row;
   }
 
@@ -241,7 +242,7 @@ export class TreePanel {
     row.element.classList.toggle("dimmed", !model.isShown(name));
     row.element.setAttribute("aria-level", String(data.depth + 1));
     row.element.setAttribute("aria-selected", String(name === model.selection.frame));
-    if (data.hasChildren) row.element.setAttribute("aria-expanded", String(!this.collapsed.has(name)));
+    if (data.hasChildren) row.element.setAttribute("aria-expanded", String(!this.collapsedFrames.has(name)));
     else row.element.removeAttribute("aria-expanded");
     const mark = model.marks.get(name);
     setMark(row.mark, mark?.severity);
@@ -254,7 +255,10 @@ export class TreePanel {
     );
     row.element.title = [described, ...(mark?.lines ?? [])].join("\n");
     row.caret.hidden = !data.hasChildren;
-    row.caret.setAttribute("aria-label", `${this.collapsed.has(name) ? "Expand" : "Collapse"} ${name.slice(0, 60)}`);
+    row.caret.setAttribute(
+      "aria-label",
+      `${this.collapsedFrames.has(name) ? "Expand" : "Collapse"} ${name.slice(0, 60)}`,
+    );
     row.box.checked = model.isShown(name);
     row.box.setAttribute("aria-label", `Show ${name.slice(0, 60)}`);
     row.solo.classList.toggle("on", model.solo === name);
@@ -268,7 +272,7 @@ export class TreePanel {
   private toggleCollapsed(event: Event, frame: number): void {
     event.stopPropagation();
     const name = this.model.forest.name(frame);
-    if (!this.collapsed.delete(name)) this.collapsed.add(name);
+    if (!this.collapsedFrames.delete(name)) this.collapsedFrames.add(name);
     this.rebuild();
   }
 
@@ -295,8 +299,8 @@ export class TreePanel {
     else if (event.key === "Home") go(0);
     else if (event.key === "End") go(this.rows.length - 1);
     else if (event.key === " " && row) this.model.setHidden([name], this.model.isShown(name));
-    else if (event.key === "ArrowLeft" && row?.hasChildren) this.collapsed.add(name);
-    else if (event.key === "ArrowRight" && row) this.collapsed.delete(name);
+    else if (event.key === "ArrowLeft" && row?.hasChildren) this.collapsedFrames.add(name);
+    else if (event.key === "ArrowRight" && row) this.collapsedFrames.delete(name);
     else return;
     event.preventDefault();
     event.stopPropagation();

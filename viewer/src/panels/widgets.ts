@@ -27,10 +27,10 @@ export class WidgetRow {
   private readonly controls: Controls;
   private readonly label = h("span");
   private widget: Widget;
-  private changedAt = -Infinity;
+  private changeTime = -Infinity;
   private holdTimer = 0;
   private sendTimer = 0;
-  private unsent: Value | null = null;
+  private unsentValue: Value | null = null;
 
   constructor(
     widget: Widget,
@@ -61,7 +61,7 @@ export class WidgetRow {
   }
 
   private showWhenIdle(): void {
-    const wait = this.changedAt + HOLD_MS - performance.now();
+    const wait = this.changeTime + HOLD_MS - performance.now();
     window.clearTimeout(this.holdTimer);
     if (wait > 0) this.holdTimer = window.setTimeout(() => this.showWhenIdle(), wait);
     else this.controls.show(this.widget);
@@ -69,12 +69,12 @@ export class WidgetRow {
 
   /** Sends what the user did, at a limited rate. */
   private use(value: Value): void {
-    this.changedAt = performance.now();
-    this.unsent = value;
+    this.changeTime = performance.now();
+    this.unsentValue = value;
     this.sendTimer ||= window.setTimeout(() => {
       this.sendTimer = 0;
-      if (this.unsent) this.send({ type: "widget", id: this.widget.id, ...this.unsent });
-      this.unsent = null;
+      if (this.unsentValue) this.send({ type: "widget", id: this.widget.id, ...this.unsentValue });
+      this.unsentValue = null;
     }, SEND_INTERVAL_MS);
   }
 

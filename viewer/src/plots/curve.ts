@@ -60,10 +60,10 @@ export class Curve {
   }
 
   /** The points between two times, and one more on each side; of many, the extremes of equal parts. */
-  table(from: number, to: number, most: number): Table {
+  table(from: number, to: number, maxPoints: number): Table {
     const begin = Math.max(0, this.countUpTo(from) - 1);
     const end = Math.min(this.count, this.countUpTo(to) + 1);
-    const indices = findExtremes(this.values, begin, end, most);
+    const indices = findExtremes(this.values, begin, end, maxPoints);
     const x: number[] = [];
     const y: (number | null)[] = [];
     for (const i of indices) {
@@ -93,13 +93,13 @@ function enlarge(values: Float64Array, size: number): Float64Array<ArrayBuffer> 
 }
 
 /** The indices of the smallest and the largest value of each of many equal parts, so that no peak is lost. */
-export function findExtremes(values: ArrayLike<number>, begin: number, end: number, most: number): number[] {
+export function findExtremes(values: ArrayLike<number>, begin: number, end: number, maxPoints: number): number[] {
   const indices: number[] = [];
-  if (end - begin <= most) {
+  if (end - begin <= maxPoints) {
     for (let i = begin; i < end; i++) indices.push(i);
     return indices;
   }
-  const size = Math.ceil(((end - begin) * 2) / most);
+  const size = Math.ceil(((end - begin) * 2) / maxPoints);
   for (let start = begin; start < end; start += size) {
     let [low, high] = [start, start];
     for (let i = start; i < Math.min(end, start + size); i++) {

@@ -38,9 +38,9 @@ export class PlotsPane implements Pane {
   private seconds: number;
   private zoom: Range | null = null;
   /** The part of a recording that was requested; null for all of it. */
-  private fetched: Range | null = null;
-  private hovered: number | null = null;
-  private drawn = 0;
+  private fetchedRange: Range | null = null;
+  private hoveredTime: number | null = null;
+  private lastDrawTime = 0;
   private drawTimer = 0;
   private requestTimer = 0;
 
@@ -118,7 +118,7 @@ export class PlotsPane implements Pane {
     if (!windows.some(([seconds]) => seconds === this.seconds)) this.seconds = this.isRecorded ? 0 : 10;
     this.window.replaceChildren(...windows.map(([seconds, text]) => new Option(text, String(seconds))));
     this.window.value = String(this.seconds);
-    this.zoom = this.fetched = null;
+    this.zoom = this.fetchedRange = null;
     this.curves = this.curves.map((curve) => this.copy(curve));
     this.rebuild();
     this.request();
@@ -202,12 +202,12 @@ export class PlotsPane implements Pane {
     if (!this.isOpen) return;
     const range = this.range();
     const whole = !this.isRecorded || !range || (!this.zoom && this.seconds === 0);
-    this.fetched = whole ? null : zoomRange(range, 3);
+    this.fetchedRange = whole ? null : zoomRange(range, 3);
     const points = Math.max(1000, 2 * this.area.clientWidth) * (whole ? 1 : 3);
     this.model.send({
       type: "curves",
       curves: this.curves.map(({ id, expression }) => ({ id, expression })),
-      span: this.fetched,
+      span: this.fetchedRange,
       points,
     });
   }
@@ -251,10 +251,10 @@ export class PlotsPane implements Pane {
   /** Draws at most ten times per second, and only while the panel is open. */
   private schedule(): void {
     if (!this.isOpen || this.drawTimer) return;
-    const wait = Math.max(0, DRAW_INTERVAL_MS - (performance.now() - this.drawn));
+    const wait = Math.max(0, DRAW_INTERVAL_MS - (performance.now() - this.lastDrawTime));
     this.drawTimer = window.setTimeout(() => {
       this.drawTimer = 0;
-      this.drawn = performance.now();
+      this.lastDrawTime = performance.now();
       if (this.isOpen && !document.hidden) this.draw();
     }, wait);
   }
@@ -262,7 +262,7 @@ export class PlotsPane implements Pane {
   private draw(): void {
     const range = this.range();
     if (!range) return;
-    const { fetched } = this;
+    const { fetchedRange: fetched } = this;
     if (fetched && (range[0] < fetched[0] || range[1] > fetched[1])) this.requestSoon();
     const width = this.area.clientWidth;
     const room = (this.area.clientHeight - TIME_AXIS_PX) / Math.max(1, this.charts.length);
@@ -273,17 +273,17 @@ export class PlotsPane implements Pane {
   }
 
   private showValuesAt(time: number | null): void {
-    if (time === this.hovered) return;
-    this.hovered = time;
+    if (time === this.hoveredTime) return;
+    this.hoveredTime = time;
     this.showValues();
   }
 
   private showValues(): void {
-    const time = this.hovered ?? this.model.playhead;
+    const time = this.hoveredTime ?? this.model.playhead;
     for (const curve of this.curves) {
       const cell = this.values.get(curve.id);
       // Live, the newest values are a little older or newer than the playhead.
-      const at = this.hovered === null && this.model.clock.live ? Infinity : time;
+      const at = this.hoveredTime === null && this.model.clock.live ? Infinity : time;
       if (cell) setText(cell, valueText(curve.valueAt(at)));
     }
   }

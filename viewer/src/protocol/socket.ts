@@ -32,16 +32,16 @@ type Listener = <K extends keyof SourceEvents>(event: K, value: SourceEvents[K])
 export class SocketSource implements MessageSource {
   readonly live = true;
   private socket: WebSocket | null = null;
-  private wait = FIRST_WAIT_MS;
-  private opened = 0;
-  private received = 0;
+  private reconnectDelay = FIRST_WAIT_MS;
+  private openTime = 0;
+  private receiveTime = 0;
   private checked = 0;
-  private silent = false;
+  private isSilent = false;
   /** False once the page turned out to be older or newer than the server. */
   private compatible = true;
   /** Events that occurred before `start`. */
-  private early: (() => void)[] = [];
-  private listener: Listener = (event, value) => void this.early.push(() => this.listener(event, value));
+  private earlyEvents: (() => void)[] = [];
+  private listener: Listener = (event, value) => void this.earlyEvents.push(() => this.listener(event, value));
 
   constructor(private readonly url: string) {
     this.open();
@@ -50,7 +50,7 @@ export class SocketSource implements MessageSource {
 
   start(listener: Listener): void {
     this.listener = listener;
-    for (const emit of this.early.splice(0)) emit();
+    for (const emit of this.earlyEvents.splice(0)) emit();
   }
 
   send(message: ClientMessage): void {
@@ -69,13 +69,13 @@ export class SocketSource implements MessageSource {
   private open(): void {
     const socket = new WebSocket(this.url);
     socket.binaryType = "arraybuffer";
-    this.opened = this.received = performance.now();
+    this.openTime = this.receiveTime = performance.now();
     socket.onopen = () => {
-      this.opened = this.received = performance.now();
+      this.openTime = this.receiveTime = performance.now();
       this.listener("connected", true);
     };
     socket.onmessage = (event: MessageEvent<string | ArrayBuffer>) => {
-      this.received = performance.now();
+      this.receiveTime = performance.now();
       this.setSilent(false);
       if (this.compatible) this.receive(event.data);
     };
@@ -86,16 +86,16 @@ export class SocketSource implements MessageSource {
   /** Replaces a connection that has closed, or that is given up. */
   private reopen(socket: WebSocket): void {
     if (this.socket !== socket) return;
-    const lasted = socket.readyState !== WebSocket.CONNECTING && performance.now() - this.opened > STABLE_MS;
-    if (lasted) this.wait = FIRST_WAIT_MS;
+    const lasted = socket.readyState !== WebSocket.CONNECTING && performance.now() - this.openTime > STABLE_MS;
+    if (lasted) this.reconnectDelay = FIRST_WAIT_MS;
     // Without a network, closing takes longer than opening another one.
     socket.onopen = socket.onmessage = socket.onclose = null;
     this.socket = null;
     socket.close();
     this.setSilent(false);
     this.listener("connected", false);
-    if (this.compatible) setTimeout(() => this.open(), this.wait);
-    this.wait = Math.min(this.wait * 2, MAX_WAIT_MS);
+    if (this.compatible) setTimeout(() => this.open(), this.reconnectDelay);
+    this.reconnectDelay = Math.min(this.reconnectDelay * 2, MAX_WAIT_MS);
   }
 
   private check(): void {
@@ -104,8 +104,8 @@ export class SocketSource implements MessageSource {
     this.checked = now;
     const { socket } = this;
     if (!socket || !this.compatible) return;
-    if (isLate) this.received = now;
-    const silence = now - this.received;
+    if (isLate) this.receiveTime = now;
+    const silence = now - this.receiveTime;
     if (socket.readyState === WebSocket.OPEN) {
       this.setSilent(silence > SILENT_MS);
       if (silence > RECONNECT_MS) this.reopen(socket);
@@ -113,8 +113,8 @@ export class SocketSource implements MessageSource {
   }
 
   private setSilent(silent: boolean): void {
-    if (silent === this.silent) return;
-    this.silent = silent;
+    if (silent === this.isSilent) return;
+    this.isSilent = silent;
     this.listener("silent", silent);
   }
 

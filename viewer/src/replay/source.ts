@@ -67,13 +67,13 @@ export class ReplaySource implements MessageSource {
   private readonly count: number;
   private readonly displays: ReplayDisplay[];
   private readonly subscriptions = new Map<number, Subscription>();
-  private fixed: number;
-  private at: number;
-  private playing = false;
+  private fixedFrame: number;
+  private playhead: number;
+  private isPlaying = false;
   private speed = 1;
   private loop: [number, number] | null = null;
-  private last = 0;
-  private started = false;
+  private lastTick = 0;
+  private hasStarted = false;
   private listener: Listener = () => {};
 
   constructor(private readonly block: ReplayBlock) {
@@ -96,8 +96,8 @@ export class ReplaySource implements MessageSource {
       block.frames,
       Array.from(components, (c) => c ?? { root: "", size: 0 }),
     );
-    this.fixed = Math.max(0, this.forest.index.get(block.fixed) ?? 0);
-    this.at = block.from;
+    this.fixedFrame = Math.max(0, this.forest.index.get(block.fixed) ?? 0);
+    this.playhead = block.from;
   }
 
   start(listener: Listener): void {
@@ -150,7 +150,7 @@ export class ReplaySource implements MessageSource {
       if (geometry) listener("binary", decode(bytes(geometry, 1)));
     }
     if (block.stats.length === this.count) listener("text", { type: "stats", revision: 1, span, frames: block.stats });
-    this.started = true;
+    this.hasStarted = true;
     this.sendFrames();
     setInterval(() => this.advance(), FRAME_INTERVAL_MS);
   }
@@ -161,22 +161,22 @@ export class ReplaySource implements MessageSource {
   send(message: ClientMessage): void {
     switch (message.type) {
       case "fixed":
-        this.fixed = this.forest.index.get(message.frame) ?? this.fixed;
+        this.fixedFrame = this.forest.index.get(message.frame) ?? this.fixedFrame;
         this.sendFrames();
         break;
       case "time":
         if (message.mode === "at") {
-          this.at = message.at ?? this.at;
-          this.playing = message.playing ?? false;
+          this.playhead = message.at ?? this.playhead;
+          this.isPlaying = message.playing ?? false;
           this.speed = message.speed ?? 1;
           this.loop = message.loop ?? null;
-          this.last = performance.now();
+          this.lastTick = performance.now();
         }
         this.sendFrames();
         break;
       case "step": {
         const next = this.times[this.sample() + message.direction];
-        if (next !== undefined) this.at = next;
+        if (next !== undefined) this.playhead = next;
         this.sendFrames();
         break;
       }
@@ -220,18 +220,19 @@ export class ReplaySource implements MessageSource {
   }
 
   private advance(): void {
-    if (!this.playing) return;
+    if (!this.isPlaying) return;
     const now = performance.now();
     const [first, end] = this.loop ?? [this.block.from, this.block.to];
-    this.at += (now - this.last) * 1e6 * this.speed;
-    this.last = now;
-    if (this.at > end) this.at = this.loop ? first + ((this.at - first) % Math.max(1, end - first)) : end;
+    this.playhead += (now - this.lastTick) * 1e6 * this.speed;
+    this.lastTick = now;
+    if (this.playhead > end)
+      this.playhead = this.loop ? first + ((this.playhead - first) % Math.max(1, end - first)) : end;
     this.sendFrames();
   }
 
   /** The index of the last sample at or before the playhead. */
   private sample(): number {
-    return Math.max(0, lastUpTo(this.times, this.at));
+    return Math.max(0, lastUpTo(this.times, this.playhead));
   }
 
   private pose(sample: number, frame: number): Pose {
@@ -241,19 +242,19 @@ export class ReplaySource implements MessageSource {
   }
 
   private sendFrames(): void {
-    if (this.times.length === 0 || !this.started) return;
+    if (this.times.length === 0 || !this.hasStarted) return;
     const sample = this.sample();
     const { frames } = this.forest;
     const poses = new Float32Array(this.count * 7);
     const states = this.states.slice(sample * this.count, (sample + 1) * this.count);
-    const asRecorded = frames[this.fixed]?.name === this.block.fixed;
-    const own = frames[this.fixed]?.component;
+    const asRecorded = frames[this.fixedFrame]?.name === this.block.fixed;
+    const own = frames[this.fixedFrame]?.component;
     const bases = new Map<number, Pose>();
     for (let i = 0; i < this.count; i++) {
       let pose = this.pose(sample, i);
       const component = frames[i]?.component ?? 0;
       if (!asRecorded) {
-        const root = component === own ? this.fixed : this.rootOf(i);
+        const root = component === own ? this.fixedFrame : this.rootOf(i);
         let base = bases.get(root);
         if (!base) bases.set(root, (base = inverse(this.pose(sample, root))));
         pose = compose(base, pose);
@@ -266,7 +267,7 @@ export class ReplaySource implements MessageSource {
     this.listener("binary", {
       kind: "frames",
       revision: 1,
-      time: this.at,
+      time: this.playhead,
       origin,
       count: this.count,
       poses,
@@ -313,12 +314,12 @@ export class ReplaySource implements MessageSource {
   /** The pose of the recorded fixed frame relative to the selected one at a time; null if they are not connected. */
   private recordedFixedFrame(sample: number, stamp: number): Pose | null {
     const recorded = this.forest.index.get(this.block.fixed) ?? -1;
-    if (this.forest.frames[recorded]?.component !== this.forest.frames[this.fixed]?.component) return null;
+    if (this.forest.frames[recorded]?.component !== this.forest.frames[this.fixedFrame]?.component) return null;
     const low = Number.isFinite(stamp) ? Math.max(0, lastUpTo(this.times, stamp)) : sample;
     const high = Math.min(low + (Number.isFinite(stamp) ? 1 : 0), this.times.length - 1);
     const [from, to] = [this.times[low] as number, this.times[high] as number];
     const part = to > from ? Math.max(0, Math.min(1, (stamp - from) / (to - from))) : 0;
-    const base = interpolate(this.pose(low, this.fixed), this.pose(high, this.fixed), part);
+    const base = interpolate(this.pose(low, this.fixedFrame), this.pose(high, this.fixedFrame), part);
     return base.position.every(Number.isFinite) ? inverse(base) : null;
   }
 
@@ -334,7 +335,7 @@ export class ReplaySource implements MessageSource {
       ok: false,
       target,
       source,
-      stamp: this.at,
+      stamp: this.playhead,
       translation: null,
       quaternion: null,
       rpy_deg: null,

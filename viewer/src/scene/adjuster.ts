@@ -14,7 +14,7 @@ export interface AdjustedTransform {
   parent: string;
   child: string;
   /** The pose of the child relative to the parent when the adjustment began, and now. */
-  original: Pose;
+  originalPose: Pose;
   pose: Pose;
 }
 
@@ -49,7 +49,7 @@ export class Adjuster {
     const pose = frameUpdate && this.canAdjust(frame) ? poseInParent(frameUpdate, forest, i) : null;
     if (!pose || !pose.position.every(Number.isFinite)) return;
     this.stop();
-    this.current = { parent: forest.name(forest.frames[i]?.parent ?? -1), child: frame, original: pose, pose };
+    this.current = { parent: forest.name(forest.frames[i]?.parent ?? -1), child: frame, originalPose: pose, pose };
     const { scene, camera, canvas } = this.renderer;
     const redraw = (): void => this.renderer.invalidate();
     this.gizmo = new Gizmo(scene, camera, canvas, (changed) => this.set(changed), redraw);

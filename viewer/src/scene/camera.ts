@@ -43,9 +43,9 @@ export interface Reference {
 export class Camera {
   mode: CameraMode = "orbit";
   private readonly perspective = new THREE.PerspectiveCamera(FIELD_OF_VIEW, 1, NEAR_PLANE_M, 5000);
-  private readonly flat = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.1, 5000);
+  private readonly orthographicCamera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.1, 5000);
   private readonly controls: { orbit: OrbitControls; top: OrbitControls; look: LookControls };
-  private followed: THREE.Vector3 | null = null;
+  private followedPosition: THREE.Vector3 | null = null;
   /** The class of RViz's view controller, without its package. */
   private controller = "Orbit";
   /** The yaw of the followed frame, with which a ThirdPersonFollower turns. */
@@ -57,12 +57,12 @@ export class Camera {
 
   constructor(canvas: HTMLCanvasElement, onChange: () => void) {
     this.perspective.up.set(0, 0, 1);
-    this.flat.up.set(0, 1, 0);
+    this.orthographicCamera.up.set(0, 1, 0);
     this.perspective.position.set(2.6, -2.6, 1.9);
-    this.flat.position.set(0, 0, 1000);
+    this.orthographicCamera.position.set(0, 0, 1000);
     this.controls = {
       orbit: new OrbitControls(this.perspective, canvas),
-      top: new OrbitControls(this.flat, canvas),
+      top: new OrbitControls(this.orthographicCamera, canvas),
       look: new LookControls(this.perspective, canvas, onChange),
     };
     for (const controls of [this.controls.orbit, this.controls.top]) {
@@ -78,11 +78,11 @@ export class Camera {
     top.touches.ONE = THREE.TOUCH.PAN;
     top.touches.TWO = THREE.TOUCH.DOLLY_PAN;
     top.enabled = false;
-    this.flat.zoom = 80;
+    this.orthographicCamera.zoom = 80;
   }
 
   get current(): THREE.PerspectiveCamera | THREE.OrthographicCamera {
-    return this.mode === "top" ? this.flat : this.perspective;
+    return this.mode === "top" ? this.orthographicCamera : this.perspective;
   }
 
   get target(): THREE.Vector3 {
@@ -118,38 +118,46 @@ export class Camera {
     this.perspective.aspect = this.width / this.height;
     this.perspective.updateProjectionMatrix();
     // With one unit per pixel, the zoom is the number of pixels per meter, as RViz's Scale.
-    Object.assign(this.flat, { left: -width / 2, right: width / 2, top: height / 2, bottom: -height / 2 });
-    this.flat.updateProjectionMatrix();
+    Object.assign(this.orthographicCamera, {
+      left: -width / 2,
+      right: width / 2,
+      top: height / 2,
+      bottom: -height / 2,
+    });
+    this.orthographicCamera.updateProjectionMatrix();
   }
 
   /** Moves the camera with the scene, whose contents moved by -delta because its origin changed. */
   shift(delta: Vector): void {
     const move = new THREE.Vector3(...delta).negate();
     this.perspective.position.add(move);
-    this.flat.position.add(move);
+    this.orthographicCamera.position.add(move);
     for (const controls of [this.controls.orbit, this.controls.top]) controls.target.add(move);
     this.controls.look.base.position.add(move);
     this.controls[this.mode].update();
-    this.followed?.add(move);
+    this.followedPosition?.add(move);
   }
 
   /** Keeps the position relative to a moving frame; null stops following. The frame is centered first. */
   follow(reference: Reference | null): void {
     if (!reference) {
-      this.followed = null;
+      this.followedPosition = null;
       this.followedYaw = 0;
       return;
     }
     const { position } = reference;
     if (![...position.toArray(), ...reference.quaternion.toArray()].every(Number.isFinite)) return;
     if (this.mode === "look") {
-      this.followed = position.clone();
+      this.followedPosition = position.clone();
       this.attach(reference);
       return;
     }
-    const delta = this.followed ? position.clone().sub(this.followed) : position.clone().sub(this.target);
-    const turn = this.followed && this.controller === "ThirdPersonFollower" ? yawOf(reference) - this.followedYaw : 0;
-    this.followed = position.clone();
+    const delta = this.followedPosition
+      ? position.clone().sub(this.followedPosition)
+      : position.clone().sub(this.target);
+    const turn =
+      this.followedPosition && this.controller === "ThirdPersonFollower" ? yawOf(reference) - this.followedYaw : 0;
+    this.followedPosition = position.clone();
     this.followedYaw = yawOf(reference);
     if (delta.lengthSq() === 0 && turn === 0) return;
     this.current.position.add(delta);
@@ -177,7 +185,7 @@ export class Camera {
       this.controls.look.lookAt(point);
       return;
     }
-    if (this.mode === "top") this.flat.position.set(point.x, point.y, this.flat.position.z);
+    if (this.mode === "top") this.orthographicCamera.position.set(point.x, point.y, this.orthographicCamera.position.z);
     this.target.copy(point);
     this.controls[this.mode].update();
   }
@@ -245,16 +253,16 @@ export class Camera {
       const distance = visibleHeight / (2 * Math.tan(((FIELD_OF_VIEW / 2) * Math.PI) / 180));
       this.perspective.position.copy(target).addScaledVector(direction, Math.min(2500, distance));
     } else {
-      this.flat.position.set(target.x, target.y, target.z + 1000);
-      this.flat.zoom = this.height / Math.max(visibleHeight, 1e-3);
-      this.flat.updateProjectionMatrix();
+      this.orthographicCamera.position.set(target.x, target.y, target.z + 1000);
+      this.orthographicCamera.zoom = this.height / Math.max(visibleHeight, 1e-3);
+      this.orthographicCamera.updateProjectionMatrix();
     }
     controls.target.copy(target);
     controls.update();
   }
 
   private visibleHeight(): number {
-    if (this.mode === "top") return this.height / this.flat.zoom;
+    if (this.mode === "top") return this.height / this.orthographicCamera.zoom;
     const distance = this.perspective.position.distanceTo(this.target);
     return 2 * distance * Math.tan(((FIELD_OF_VIEW / 2) * Math.PI) / 180);
   }
@@ -278,11 +286,11 @@ export class Camera {
       return new THREE.Vector3(number(parts["X"], 0), number(parts["Y"], 0), number(parts["Z"], 0));
     };
     this.setController(name);
-    this.followed = reference.position.clone();
+    this.followedPosition = reference.position.clone();
     this.followedYaw = yawOf(reference);
     if (this.mode === "top") {
       this.angle = option("Angle", 0);
-      this.flat.up.set(-Math.sin(this.angle), Math.cos(this.angle), 0);
+      this.orthographicCamera.up.set(-Math.sin(this.angle), Math.cos(this.angle), 0);
       const target = new THREE.Vector3(option("X", 0), option("Y", 0), 0).add(reference.position);
       this.moveTo(target, this.height / Math.max(1e-3, option("Scale", 80)));
     } else if (this.mode === "look") {
@@ -315,7 +323,7 @@ export class Camera {
     if (this.mode === "top")
       return {
         class: name,
-        options: { Angle: this.angle, Scale: this.flat.zoom, ...frame, X: target.x, Y: target.y },
+        options: { Angle: this.angle, Scale: this.orthographicCamera.zoom, ...frame, X: target.x, Y: target.y },
       };
     if (this.mode === "look") {
       const angles = { Pitch: look.pitch, Yaw: normalizeAngle(look.yaw), ...(look.roll ? { Roll: look.roll } : {}) };

@@ -28,8 +28,8 @@ export class FramePoses {
   /** The x offset of each tree; zero for the tree of the fixed frame. */
   offsets: number[] = [];
   frameTimeout = 15;
-  private started = false;
-  private fixed = "";
+  private hasStarted = false;
+  private fixedFrame = "";
   private radii: number[] = [];
 
   /** Applies a frame update. Returns the movement of the scene's origin, or null if it did not move. */
@@ -76,12 +76,12 @@ export class FramePoses {
       update.origin[2] - this.origin[2],
     ];
     if (!delta.every(Number.isFinite)) return null;
-    const other = this.fixed !== fixed;
-    if (this.started && !other && Math.hypot(...delta) < MAX_ORIGIN_DISTANCE_M) return null;
+    const other = this.fixedFrame !== fixed;
+    if (this.hasStarted && !other && Math.hypot(...delta) < MAX_ORIGIN_DISTANCE_M) return null;
     this.origin = [...update.origin];
-    const first = !this.started || other;
-    this.started = true;
-    this.fixed = fixed;
+    const first = !this.hasStarted || other;
+    this.hasStarted = true;
+    this.fixedFrame = fixed;
     // All coordinates change with the fixed frame, so the camera keeps its position near the origin.
     return first ? null : delta;
   }

@@ -22,7 +22,7 @@ export interface Label {
 
 export class LabelLayer {
   private readonly pool = new Map<string, HTMLElement>();
-  private readonly projected = new THREE.Vector3();
+  private readonly projectedPoint = new THREE.Vector3();
 
   constructor(private readonly parent: HTMLElement) {}
 
@@ -30,7 +30,7 @@ export class LabelLayer {
   draw(labels: Label[], camera: THREE.Camera, width: number, height: number): void {
     const visible: { label: Label; x: number; y: number; rank: number }[] = [];
     for (const label of labels) {
-      const p = this.projected.copy(label.position).project(camera);
+      const p = this.projectedPoint.copy(label.position).project(camera);
       if (p.z < -1 || p.z > 1 || Math.abs(p.x) > 1 || Math.abs(p.y) > 1) continue;
       visible.push({
         label,
@@ -78,13 +78,13 @@ export function labelLeft(x: number, length: number, width: number): number {
 }
 
 /** Reserves a free row near (x, y) for a text of this width. Returns its y, or null if all rows are occupied. */
-function reserveRow(occupied: number[][], x: number, y: number, width: number): number | null {
+function reserveRow(occupiedRows: number[][], x: number, y: number, width: number): number | null {
   for (const offset of ROW_OFFSETS) {
     const top = y + offset * ROW_PX;
     const row = Math.round(top / ROW_PX);
     const rows = [row - 1, row, row + 1].filter((r) => r >= 0);
     const collides = rows.some((r) => {
-      const spans = occupied[r];
+      const spans = occupiedRows[r];
       if (!spans) return false;
       for (let k = 0; k < spans.length; k += 3)
         if (
@@ -96,7 +96,7 @@ function reserveRow(occupied: number[][], x: number, y: number, width: number): 
       return false;
     });
     if (collides) continue;
-    if (row >= 0) (occupied[row] ??= []).push(x, x + width, top);
+    if (row >= 0) (occupiedRows[row] ??= []).push(x, x + width, top);
     return top;
   }
   return null;

@@ -15,7 +15,7 @@ export class Measure {
   active = false;
   readonly object: THREE.Line;
   chosen: MeasuredEnd[] = [];
-  private readonly ends = [new THREE.Vector3(), new THREE.Vector3()] as const;
+  private readonly endPoints = [new THREE.Vector3(), new THREE.Vector3()] as const;
   private readonly material: THREE.LineDashedMaterial;
 
   constructor(palette: Palette) {
@@ -52,11 +52,11 @@ export class Measure {
     const found = this.active ? this.chosen.map(position) : [];
     this.object.visible = found.length === 2 && found.every(Boolean);
     if (!this.object.visible) return;
-    found.forEach((point, k) => this.ends[k as 0 | 1].copy(point as THREE.Vector3));
+    found.forEach((point, k) => this.endPoints[k as 0 | 1].copy(point as THREE.Vector3));
     const attribute = this.object.geometry.getAttribute("position");
-    this.ends.forEach((end, k) => attribute.setXYZ(k, end.x, end.y, end.z));
+    this.endPoints.forEach((end, k) => attribute.setXYZ(k, end.x, end.y, end.z));
     attribute.needsUpdate = true;
-    const length = this.ends[0].distanceTo(this.ends[1]);
+    const length = this.endPoints[0].distanceTo(this.endPoints[1]);
     this.material.dashSize = Math.max(1e-4, length / 40);
     this.material.gapSize = this.material.dashSize * 0.7;
     this.object.computeLineDistances();
@@ -68,14 +68,14 @@ export class Measure {
     if (first === undefined) return "Measure: click the first frame or point";
     if (this.chosen.length === 1) return `From ${nameOf(first)}: click the second frame or point`;
     if (!this.object.visible) return "One of the two frames is not visible";
-    const [a, b] = this.ends;
+    const [a, b] = this.endPoints;
     const along = (["x", "y", "z"] as const).map((k) => `Δ${k} ${format.formatFixed(b[k] - a[k], 3)}`).join("  ");
     return `${format.meters(a.distanceTo(b))}   ${along}`;
   }
 
   label(): Label | null {
     if (!this.object.visible) return null;
-    const [a, b] = this.ends;
+    const [a, b] = this.endPoints;
     return {
       key: "measured",
       text: format.meters(a.distanceTo(b)),

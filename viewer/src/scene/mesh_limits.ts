@@ -179,10 +179,10 @@ function countWords(text: string): number {
   return number;
 }
 
-function isIndex(text: string, most: number): boolean {
-  return /^\d{1,9}$/.test(text.trim()) && Number(text) <= most;
+function isIndex(text: string, max: number): boolean {
+  return /^\d{1,9}$/.test(text.trim()) && Number(text) <= max;
 }
 
-function limitProblem(number: number, most: number, what: string): string {
-  return `has ${Math.round(number)} ${what}; at most ${most} can be read`;
+function limitProblem(count: number, max: number, what: string): string {
+  return `has ${Math.round(count)} ${what}; at most ${max} can be read`;
 }

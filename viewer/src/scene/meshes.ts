@@ -38,13 +38,13 @@ TGALoader.prototype.parse = function (bytes: ArrayBuffer): ReturnType<typeof par
 export interface LoadedMesh {
   object: THREE.Object3D;
   /** Whether the file contains colors, as DAE and GLB files do; STL files do not. */
-  colored: boolean;
+  hasColors: boolean;
 }
 
 export class MeshError extends Error {}
 
 export class Meshes {
-  private readonly loading = new Map<string, Promise<LoadedMesh>>();
+  private readonly loadingMeshes = new Map<string, Promise<LoadedMesh>>();
 
   /**
    * Loads a mesh.
@@ -54,13 +54,13 @@ export class Meshes {
    * @returns A copy that shares its geometry with all other copies of this file.
    */
   async load(url: string, name: string): Promise<LoadedMesh> {
-    let promise = this.loading.get(url);
+    let promise = this.loadingMeshes.get(url);
     if (!promise) {
       promise = fetchMesh(url, name);
-      this.loading.set(url, promise);
+      this.loadingMeshes.set(url, promise);
     }
-    const { object, colored } = await promise;
-    return { object: object.clone(), colored };
+    const { object, hasColors: colored } = await promise;
+    return { object: object.clone(), hasColors: colored };
   }
 }
 
@@ -143,7 +143,7 @@ async function parseFormat(
   const folder = url.startsWith("data:") ? "" : `${url}/`;
   switch (kind) {
     case "stl":
-      return { object: new THREE.Mesh(parseStl(bytes, name)), colored: false };
+      return { object: new THREE.Mesh(parseStl(bytes, name)), hasColors: false };
     case "dae": {
       const document = new DOMParser().parseFromString(text(bytes, name), "application/xml");
       refuse(colladaProblem(document), name);
@@ -151,7 +151,7 @@ async function parseFormat(
       const source = new XMLSerializer().serializeToString(document);
       const scene = new ColladaLoader(manager).parse(source, folder)?.scene;
       if (!scene) throw new MeshError(`${shortenName(name)} is not a COLLADA file.`);
-      return { object: scene, colored: true };
+      return { object: scene, hasColors: true };
     }
     case "obj":
       return parseObj(text(bytes, name), name, folder, manager);
@@ -197,7 +197,7 @@ async function parseObj(
     } catch (error) {
       if (!(error instanceof MeshError)) throw error;
     }
-  return { object: loader.parse(source), colored };
+  return { object: loader.parse(source), hasColors: colored };
 }
 
 function parseStl(bytes: ArrayBuffer, name: string): THREE.BufferGeometry {
@@ -233,7 +233,7 @@ async function parseGltf(
     parser.textureLoader = new THREE.TextureLoader(manager);
     return { name: "coframe" };
   });
-  return { object: (await loader.parseAsync(bytes, folder)).scene, colored: true };
+  return { object: (await loader.parseAsync(bytes, folder)).scene, hasColors: true };
 }
 
 function refuse(problem: string, name: string): void {

@@ -44,7 +44,7 @@ export class NodesView {
   private readonly places = new Map<string, Place>();
   private readonly names = new Map<number, string>();
   /** Names of nodes that the user has hidden in this page. */
-  private readonly hidden = new Set<string>();
+  private readonly hiddenNames = new Set<string>();
   private readonly listeners: (() => void)[] = [];
 
   constructor(
@@ -79,14 +79,14 @@ export class NodesView {
       .map((place) => ({
         name: place.name,
         kind: place.current?.node.kind ?? "",
-        hidden: this.hidden.has(place.name),
+        hidden: this.hiddenNames.has(place.name),
         problem: place.problem,
       }));
   }
 
   setHidden(name: string, hidden: boolean): void {
-    if (hidden) this.hidden.add(name);
-    else this.hidden.delete(name);
+    if (hidden) this.hiddenNames.add(name);
+    else this.hiddenNames.delete(name);
     this.notifyChange();
   }
 
@@ -208,7 +208,7 @@ export class NodesView {
 
   private isShown(place: Place): boolean {
     for (let at: Place | null = place; at; at = this.nearestAncestor(at.name))
-      if (!at.current?.node.visible || this.hidden.has(at.name)) return false;
+      if (!at.current?.node.visible || this.hiddenNames.has(at.name)) return false;
     return true;
   }
 

@@ -26,7 +26,7 @@ const ALONG_Z = new THREE.Quaternion(1, 0, 0, 0);
 export class PaneCamera {
   readonly camera: THREE.PerspectiveCamera | THREE.OrthographicCamera;
   readonly controls: OrbitControls | null;
-  private followed: THREE.Vector3 | null = null;
+  private followedPosition: THREE.Vector3 | null = null;
 
   constructor(
     readonly kind: PaneKind,
@@ -80,13 +80,13 @@ export class PaneCamera {
     this.camera.position.add(move);
     this.controls?.target.add(move);
     this.controls?.update();
-    this.followed?.add(move);
+    this.followedPosition?.add(move);
   }
 
   /** Looks out of a frame, or keeps the distance to it; null stops following. */
   follow(pose: Pose | null, optical: boolean): void {
     if (!pose) {
-      this.followed = null;
+      this.followedPosition = null;
       return;
     }
     const position = new THREE.Vector3(...pose.position);
@@ -95,8 +95,8 @@ export class PaneCamera {
       this.camera.quaternion.set(...pose.quaternion).multiply(optical ? ALONG_Z : ALONG_X);
       return;
     }
-    const delta = position.clone().sub(this.followed ?? this.controls.target);
-    this.followed = position;
+    const delta = position.clone().sub(this.followedPosition ?? this.controls.target);
+    this.followedPosition = position;
     if (delta.lengthSq() === 0 || !Number.isFinite(delta.lengthSq())) return;
     this.camera.position.add(delta);
     this.controls.target.add(delta);

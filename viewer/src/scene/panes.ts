@@ -34,7 +34,7 @@ class Pane {
   readonly labels: LabelLayer;
   camera: PaneCamera;
   private readonly frames: HTMLSelectElement;
-  private fitted = false;
+  private hasFitted = false;
 
   constructor(
     readonly settings: PaneSettings,
@@ -74,9 +74,9 @@ class Pane {
   update(pose: Pose | null, box: () => THREE.Box3): void {
     const { width, height } = this.size;
     this.camera.resize(width, height);
-    if (!this.fitted) {
+    if (!this.hasFitted) {
       const content = box();
-      this.fitted = !content.isEmpty();
+      this.hasFitted = !content.isEmpty();
       this.camera.fit(content, width, height);
     }
     const { frame } = this.settings;
@@ -91,7 +91,7 @@ class Pane {
     this.settings.kind = kind;
     this.camera.dispose();
     this.camera = new PaneCamera(kind, this.area, this.owner.redraw);
-    this.fitted = false;
+    this.hasFitted = false;
     this.owner.notifyChange();
   }
 }
@@ -104,7 +104,7 @@ export class Panes {
     private readonly model: Model,
     private readonly renderer: SceneRenderer,
     readonly redraw: () => void,
-    private readonly content: () => THREE.Box3,
+    private readonly contentBounds: () => THREE.Box3,
   ) {
     model.on("tree", () => this.fillFrames());
     const last = loadStored<PaneSettings[]>("panes", []);
@@ -132,10 +132,10 @@ export class Panes {
   }
 
   /** Updates the cameras before the scene is drawn; `moved` is the movement of the scene's origin. */
-  update(framePoses: FramePoses, moved: Vector | null): void {
+  update(framePoses: FramePoses, movement: Vector | null): void {
     for (const pane of this.list) {
-      if (moved) pane.camera.shift(moved);
-      pane.update(this.poseOf(pane.settings.frame, framePoses), this.content);
+      if (movement) pane.camera.shift(movement);
+      pane.update(this.poseOf(pane.settings.frame, framePoses), this.contentBounds);
     }
   }
 

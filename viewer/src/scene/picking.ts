@@ -84,11 +84,11 @@ export class Picker {
   }
 
   /** Of the points of a cloud that are about as near as the nearest one, the one that is nearest to the pointer. */
-  private bestOf(hits: readonly THREE.Intersection[], nearest: THREE.Intersection): THREE.Intersection {
-    const depth = nearest.distance + SAME_DEPTH * CLOUD_POINT_PX * this.pixels(nearest.distance);
+  private bestOf(hits: readonly THREE.Intersection[], nearestHit: THREE.Intersection): THREE.Intersection {
+    const depth = nearestHit.distance + SAME_DEPTH * CLOUD_POINT_PX * this.pixels(nearestHit.distance);
     const off = (hit: THREE.Intersection): number => hit.distanceToRay ?? Infinity;
-    const near = hits.filter(({ object, distance }) => object === nearest.object && distance <= depth);
-    return near.reduce((best, hit) => (off(hit) < off(best) ? hit : best), nearest);
+    const near = hits.filter(({ object, distance }) => object === nearestHit.object && distance <= depth);
+    return near.reduce((best, hit) => (off(hit) < off(best) ? hit : best), nearestHit);
   }
 
   private distance(cloud: THREE.Points | THREE.Line): number {
@@ -99,8 +99,8 @@ export class Picker {
   }
 }
 
-function forEachVisible(object: THREE.Object3D, act: (object: THREE.Object3D) => void): void {
+function forEachVisible(object: THREE.Object3D, callback: (object: THREE.Object3D) => void): void {
   if (!object.visible) return;
-  act(object);
-  for (const child of object.children) forEachVisible(child, act);
+  callback(object);
+  for (const child of object.children) forEachVisible(child, callback);
 }

@@ -26,7 +26,7 @@ export class SceneRenderer {
   private extraViews: readonly ExtraView[] = [];
   /** The element on the right that the main view leaves free. */
   private extraRoot: HTMLElement | null = null;
-  private scheduled = false;
+  private isScheduled = false;
   private isLost = false;
   private readonly lostListeners: (() => void)[] = [];
   private readonly drawTimes: number[] = [];
@@ -99,10 +99,10 @@ export class SceneRenderer {
 
   /** Schedules a redraw; several calls before it cause only one. */
   invalidate(): void {
-    if (this.scheduled) return;
-    this.scheduled = true;
+    if (this.isScheduled) return;
+    this.isScheduled = true;
     requestAnimationFrame(() => {
-      this.scheduled = false;
+      this.isScheduled = false;
       this.draw();
     });
   }

@@ -55,9 +55,9 @@ export class View {
   private fileView: { view: RvizView; before: RvizView | null } | null = null;
   private readonly frames: FramesView;
   private readonly labels: LabelLayer;
-  private pending: FrameUpdate | null = null;
-  private changed = true;
-  private fitted = false;
+  private pendingUpdate: FrameUpdate | null = null;
+  private needsDraw = true;
+  private hasFitted = false;
   /** Whether the user has moved the camera, so that it is not fitted again automatically. */
   private cameraChosen = false;
   private readonly bounds: (() => THREE.Box3)[] = [];
@@ -104,7 +104,7 @@ export class View {
     this.renderer.compile(this.frames.alwaysDrawn);
     theme.onChange(() => this.recolor());
     model.on("frames", (update) => {
-      this.pending = update;
+      this.pendingUpdate = update;
       this.refresh();
     });
     model.on("tree", () => this.refresh());
@@ -135,7 +135,7 @@ export class View {
 
   /** Redraws the scene after a change of anything but the camera. */
   refresh(): void {
-    this.changed = true;
+    this.needsDraw = true;
     this.renderer.invalidate();
   }
 
@@ -259,7 +259,7 @@ export class View {
     const supported = this.renderer.camera.apply(view, this.reference() ?? this.fixedFrame());
     this.waitingView = supported ? view : null;
     if (isOfFile) this.fileView = supported ? { view, before: null } : null;
-    if (supported) this.fitted = this.cameraChosen = true; // The camera is not fitted to the first frames.
+    if (supported) this.hasFitted = this.cameraChosen = true; // The camera is not fitted to the first frames.
     this.refresh();
     return supported;
   }
@@ -324,11 +324,11 @@ export class View {
 
   private prepare(): void {
     const { model, framePoses } = this;
-    if (this.pending) for (const listener of this.beforeDrawListeners) listener(this.pending);
-    if (!this.changed || !model.frameUpdate) return;
+    if (this.pendingUpdate) for (const listener of this.beforeDrawListeners) listener(this.pendingUpdate);
+    if (!this.needsDraw || !model.frameUpdate) return;
     // After a change of the tree, the poses belong to the frames before it until the next frame update.
     if (model.frameUpdate.revision !== model.forest.revision) return;
-    this.changed = false;
+    this.needsDraw = false;
     this.shown = model.frameUpdate;
     const update = this.adjuster.apply(model.frameUpdate);
     const moved = framePoses.update(model, update, performance.now());
@@ -342,8 +342,8 @@ export class View {
     this.adjuster.place(framePoses);
     this.highlight.place(framePoses.origin);
     for (const listener of this.posesListeners) listener(framePoses, update);
-    if (!this.fitted && (framePoses.drawn.includes(1) || this.bounds.some((bounds) => !bounds().isEmpty()))) {
-      this.fitted = true;
+    if (!this.hasFitted && (framePoses.drawn.includes(1) || this.bounds.some((bounds) => !bounds().isEmpty()))) {
+      this.hasFitted = true;
       this.fit();
       this.refitView();
     }
@@ -365,8 +365,8 @@ export class View {
     const labels = this.collectLabels();
     this.labels.draw(labels, this.renderer.camera.current, this.renderer.width, this.renderer.height);
     this.panes.drawLabels(labels);
-    const update = this.pending;
-    this.pending = null;
+    const update = this.pendingUpdate;
+    this.pendingUpdate = null;
     if (update) this.updates++;
     for (const listener of this.drawnListeners) listener(update);
   }

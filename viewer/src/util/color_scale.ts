@@ -13,13 +13,13 @@ const BLUE: Color = [0.13, 0.35, 0.72];
 const GRAY: Color = [0.62, 0.62, 0.6];
 const YELLOW: Color = [0.99, 0.91, 0.2];
 
-export function scaleColor(value: number, distinct: boolean): string {
-  return css(rgbOf(value, distinct));
+export function scaleColor(value: number, useDistinctColors: boolean): string {
+  return css(rgbOf(value, useDistinctColors));
 }
 
-export function rgbOf(value: number, distinct: boolean): Color {
+export function rgbOf(value: number, useDistinctColors: boolean): Color {
   const t = Math.max(0, Math.min(1, value));
-  if (!distinct) return TURBO.map((c) => c.reduceRight((sum, part) => sum * t + part, 0)) as Color;
+  if (!useDistinctColors) return TURBO.map((c) => c.reduceRight((sum, part) => sum * t + part, 0)) as Color;
   return interpolateColor(interpolateColor(BLUE, GRAY, smoothstep(0, 0.55, t)), YELLOW, smoothstep(0.45, 1, t));
 }
 
