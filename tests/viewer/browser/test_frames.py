@@ -27,9 +27,9 @@ LAB = {
 
 
 def test_the_tree_shows_rates_ages_and_publishers(lab):
-    assert set(lab.rows()) == set(LAB)
+    lab.wait(lambda: set(lab.rows()) == set(LAB), "all frames")
+    lab.wait(lambda: lab.row("camera_link").get_attribute("aria-level") == "8", "a complete tree")
     assert lab.row("world").get_attribute("aria-level") == "1"
-    assert lab.row("camera_link").get_attribute("aria-level") == "8"
     lab.wait(lambda: lab.row("link1").locator(".rate").inner_text().endswith("Hz"), "rates")
     rows = {name: lab.row(name) for name in LAB}
     publishers = {name: row.locator(".publisher").inner_text() for name, row in rows.items()}

@@ -14,7 +14,7 @@ import type {
   DisplayOptions,
   DisplayTopic,
 } from "../protocol/messages";
-import { remember, loadStored } from "../util/storage";
+import { storeValue, loadStored } from "../util/storage";
 import type { Theme } from "../util/theme";
 import type { View } from "../scene/view";
 import type { Model } from "../model/model";
@@ -229,7 +229,7 @@ export class Displays {
   /** Shows the displays of a snapshot again. Those that are the same stay as they are. */
   restore(snapshot: string): void {
     const { displays, groups } = JSON.parse(snapshot) as { displays: DisplayConfig[]; groups: RvizGroup[] };
-    this.automatic = false;
+    this.showsNewTopics = false;
     this.groups = groups;
     const kept = [...this.list];
     const restored = displays.map((config) => {
@@ -408,8 +408,8 @@ export class Displays {
   private notifyChange(): void {
     this.chooseResolutions();
     if (!this.showsNewTopics) {
-      remember("displays", this.save());
-      remember("groups", this.groups);
+      storeValue("displays", this.save());
+      storeValue("groups", this.groups);
     }
     this.applyTf();
     this.view.refresh();

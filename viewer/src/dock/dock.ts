@@ -2,7 +2,7 @@
 /** The panels below or beside the scene. Those that are closed do nothing. */
 
 import { h, iconButton } from "../util/dom";
-import { remember, loadStored } from "../util/storage";
+import { storeValue, loadStored } from "../util/storage";
 
 const PHONE = "(max-width: 760px)";
 const MIN_SIZE_PX = 120;
@@ -70,7 +70,7 @@ export class Dock {
 
   private setSide(side: boolean): void {
     document.body.classList.toggle("dock-side", side);
-    remember("dock-side", side);
+    storeValue("dock-side", side);
     this.handle.setAttribute("aria-orientation", side ? "vertical" : "horizontal");
     this.setSize(loadStored(side ? "dock-width" : "dock-height", side ? 460 : 300));
   }
@@ -113,7 +113,7 @@ export class Dock {
       const step = event.key === larger ? KEY_STEP_PX : event.key === smaller ? -KEY_STEP_PX : 0;
       if (!step) return;
       this.setSize(this.size + step);
-      remember(side ? "dock-width" : "dock-height", this.size);
+      storeValue(side ? "dock-width" : "dock-height", this.size);
       event.preventDefault();
     });
     handle.addEventListener("pointerdown", (event) => {
@@ -125,7 +125,7 @@ export class Dock {
         (at) => {
           handle.removeEventListener("pointermove", move);
           const side = document.body.classList.contains("dock-side");
-          remember(side ? "dock-width" : "dock-height", sizeAt(at));
+          storeValue(side ? "dock-width" : "dock-height", sizeAt(at));
         },
         { once: true },
       );

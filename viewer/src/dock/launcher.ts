@@ -3,7 +3,7 @@
 
 import type { Model } from "../model/model";
 import { link, linked } from "../util/link";
-import { remember, loadStored } from "../util/storage";
+import { storeValue, loadStored } from "../util/storage";
 import { toast } from "../util/toast";
 import type { Dock } from "./dock";
 
@@ -69,7 +69,7 @@ export class DockLauncher {
   private use(act: (dock: Dock) => void): void {
     this.dock ??= this.load().then((makeDock) =>
       makeDock(this.root, (shown) => {
-        remember("panes", shown);
+        storeValue("panes", shown);
         link("panel", shown);
       }),
     );

@@ -8,7 +8,7 @@ import { COLORS } from "../plots/colors";
 import { computeShownRange, WINDOWS, zoomRange, type Range } from "../plots/range";
 import { h, iconButton, select, setText, shorten } from "../util/dom";
 import * as format from "../util/format";
-import { remember, loadStored } from "../util/storage";
+import { storeValue, loadStored } from "../util/storage";
 import { toast } from "../util/toast";
 import { numbered, States } from "./states";
 
@@ -53,7 +53,7 @@ export class StatesPane implements Pane {
     this.window = select("Window", [], "", (value) => {
       this.seconds = Number(value);
       this.zoom = null;
-      remember("states-window", this.seconds);
+      storeValue("states-window", this.seconds);
       this.schedule();
     });
     this.controls = [
@@ -125,7 +125,7 @@ export class StatesPane implements Pane {
   }
 
   private changed(): void {
-    remember(
+    storeValue(
       "states",
       this.lines.map(({ states }) => states.field),
     );

@@ -7,7 +7,7 @@ import type { Model } from "../model/model";
 import type { TableColumn, TableRow, TopicTable } from "../protocol/messages";
 import { download, h, select, setText, shorten } from "../util/dom";
 import * as format from "../util/format";
-import { remember, loadStored } from "../util/storage";
+import { storeValue, loadStored } from "../util/storage";
 
 const COUNTS = ["20", "100", "500"] as const;
 const MAX_CELL = 120;
@@ -43,7 +43,7 @@ export class TablePane implements Pane {
     this.controls = [
       select("Number of messages", counts, this.count, (value) => {
         this.count = value;
-        remember("table-count", value);
+        storeValue("table-count", value);
         this.request();
       }),
       h("button", { type: "button", class: "small", on: { click: () => this.save() } }, "CSV"),
@@ -73,7 +73,7 @@ export class TablePane implements Pane {
 
   private show(topic: string): void {
     this.wanted = topic;
-    remember("table-topic", topic);
+    storeValue("table-topic", topic);
     this.request();
   }
 

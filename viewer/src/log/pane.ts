@@ -6,7 +6,7 @@ import type { Model } from "../model/model";
 import type { LogEntry, LogLevel, ProblemReport } from "../protocol/messages";
 import { fillSelect, h, select, setText, shorten } from "../util/dom";
 import * as format from "../util/format";
-import { remember, loadStored } from "../util/storage";
+import { storeValue, loadStored } from "../util/storage";
 import { lastBefore, LEVELS, matchesFilter, type LogFilter } from "./filter";
 
 /** As many as the server keeps of a recording. */
@@ -50,7 +50,7 @@ export class LogPane implements Pane {
       LEVELS.map((one) => [one, one === "fatal" ? "fatal" : `${one} and above`] as const),
       this.filter.level,
       (value) => {
-        remember("log-level", value);
+        storeValue("log-level", value);
         this.setFilter({ level: value as LogLevel });
       },
     );

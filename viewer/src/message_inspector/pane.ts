@@ -8,7 +8,7 @@ import type { InspectedField, Inspection } from "../protocol/messages";
 import { h, icon, iconButton, setText, shorten } from "../util/dom";
 import * as format from "../util/format";
 import { link, linked } from "../util/link";
-import { remember, loadStored } from "../util/storage";
+import { storeValue, loadStored } from "../util/storage";
 import { toast } from "../util/toast";
 import { hasChildren, isOpen, keyOf, visibleRows } from "./rows";
 
@@ -63,7 +63,7 @@ export class MessagePane implements Pane {
       return;
     }
     this.topic.input.value = this.wantedTopic = topic;
-    remember("inspected", topic);
+    storeValue("inspected", topic);
     link("topic", [topic]);
     this.request();
   }

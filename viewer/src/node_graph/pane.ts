@@ -5,7 +5,7 @@ import type { Pane } from "../dock/dock";
 import type { Model } from "../model/model";
 import type { NodeGraph } from "../protocol/messages";
 import { h, iconButton, setText, shorten } from "../util/dom";
-import { remember, loadStored } from "../util/storage";
+import { storeValue, loadStored } from "../util/storage";
 import { arrange, type Arrow, type Box } from "./layout";
 
 const SVG = "http://www.w3.org/2000/svg";
@@ -35,7 +35,7 @@ export class GraphPane implements Pane {
     const all = h("input", { type: "checkbox", checked: this.showsInfrastructure });
     all.addEventListener("change", () => {
       this.showsInfrastructure = all.checked;
-      remember("graph-infrastructure", all.checked);
+      storeValue("graph-infrastructure", all.checked);
       this.draw();
     });
     this.search.addEventListener("input", () => this.draw());

@@ -4,7 +4,7 @@
 import { fillSelect, h, iconButton, select, setText, shorten } from "../util/dom";
 import * as format from "../util/format";
 import type { Model } from "../model/model";
-import { remember, loadStored } from "../util/storage";
+import { storeValue, loadStored } from "../util/storage";
 
 /** Seconds without data after which the page no longer says "Live". */
 const MAX_SILENCE_S = 3;
@@ -44,7 +44,7 @@ export class Bar {
     this.fixedFrameSelect = select("Fixed Frame", [], "", (frame) => {
       model.setFixed(frame);
       this.chosenFrame = frame;
-      remember("fixed", frame);
+      storeValue("fixed", frame);
     });
     this.fixedFrameSelect.id = "fixed";
     this.pill.append(h("span", { class: "dot" }), this.state);

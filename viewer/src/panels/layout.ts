@@ -2,7 +2,7 @@
 /** Which panels are open, where and how large: the settings of the last session, which saved views contain too. */
 
 import type { JsonObject } from "../protocol/messages";
-import { remember, loadStored } from "../util/storage";
+import { storeValue, loadStored } from "../util/storage";
 
 const DEFAULTS: JsonObject = {
   "panel-shown": true,
@@ -22,5 +22,5 @@ export function currentLayout(): JsonObject {
 export function storeLayout(layout: JsonObject): void {
   for (const [key, value] of Object.entries(DEFAULTS))
     if (typeof layout[key] === typeof value && Array.isArray(layout[key]) === Array.isArray(value))
-      remember(key, layout[key]);
+      storeValue(key, layout[key]);
 }

@@ -8,7 +8,7 @@ import type { Model } from "../model/model";
 import type { ToolSettings } from "../model/tools";
 import type { JsonObject, RvizConfiguration, RvizView } from "../protocol/messages";
 import type { Theme } from "../util/theme";
-import { remember, loadStored } from "../util/storage";
+import { storeValue, loadStored } from "../util/storage";
 import { toast } from "../util/toast";
 import type { View } from "../scene/view";
 
@@ -94,7 +94,7 @@ export class RvizPanel {
       if (hello.rviz && !this.hasStarted) {
         this.isFileLoaded = true;
         this.fileText = "";
-        remember("rviz", "");
+        storeValue("rviz", "");
         this.applyGlobals(hello.rviz);
       } else if (!hello.rviz && this.fileText) {
         // A server that was started again, or another connection, does not have the file, which it needs for saving.
@@ -105,7 +105,7 @@ export class RvizPanel {
     model.on("rviz", (rviz) => {
       this.isFileLoaded = true;
       if (this.loadingName !== null) this.fileText = this.loadingName;
-      remember("rviz", this.fileText);
+      storeValue("rviz", this.fileText);
       displays.apply(rviz);
       this.applyGlobals(rviz);
       toast(`Loaded ${rviz.displays.length} displays.`, null, "info");

@@ -2,7 +2,7 @@
 /** The side panel: tabs, an adjustable width, can be hidden. On a phone it slides over the scene. */
 
 import { h, iconButton } from "../util/dom";
-import { remember, loadStored } from "../util/storage";
+import { storeValue, loadStored } from "../util/storage";
 
 const MIN_WIDTH_PX = 260;
 const MAX_WIDTH_PX = 640;
@@ -81,7 +81,7 @@ export class Panel {
       this.buttons[i]?.setAttribute("aria-selected", String(selected));
       if (this.buttons[i]) this.buttons[i].tabIndex = selected ? 0 : -1;
     });
-    remember("tab", chosen);
+    storeValue("tab", chosen);
   }
 
   /** Shows or hides a tab. Returns whether this has changed something. */
@@ -109,7 +109,7 @@ export class Panel {
 
   private show(isShown: boolean): void {
     document.body.classList.toggle("no-panel", !isShown);
-    if (!matchMedia(PHONE).matches) remember("panel-shown", isShown);
+    if (!matchMedia(PHONE).matches) storeValue("panel-shown", isShown);
   }
 
   private key(event: KeyboardEvent, i: number): void {
@@ -137,7 +137,7 @@ export class Panel {
         "pointerup",
         (at) => {
           handle.removeEventListener("pointermove", move);
-          remember("panel-width", at.clientX);
+          storeValue("panel-width", at.clientX);
         },
         { once: true },
       );
@@ -146,7 +146,7 @@ export class Panel {
       const step = event.key === "ArrowRight" ? KEY_STEP_PX : event.key === "ArrowLeft" ? -KEY_STEP_PX : 0;
       if (!step) return;
       this.setWidth(this.width + step);
-      remember("panel-width", this.width);
+      storeValue("panel-width", this.width);
       event.preventDefault();
     });
   }

@@ -6,7 +6,7 @@ import * as format from "../util/format";
 import type { Model } from "../model/model";
 import type { Timeline as TimelineMessage } from "../protocol/messages";
 import { bars, decodeEdges, drawRows, prepare, total, type Colors, type Edge } from "./sparklines";
-import { remember, loadStored } from "../util/storage";
+import { storeValue, loadStored } from "../util/storage";
 import { TimesDialog } from "./times";
 
 const SPEEDS = ["0.1", "0.25", "0.5", "1", "2", "5", "10"] as const;
@@ -154,7 +154,7 @@ export class Timeline {
 
   toggleSparklines(): void {
     this.sparklines.hidden = !this.sparklines.hidden;
-    remember("sparks", !this.sparklines.hidden);
+    storeValue("sparks", !this.sparklines.hidden);
     this.updateButtons();
     this.requestedTime = 0;
     this.redraw();

@@ -4,7 +4,7 @@
 import type { Model } from "../model/model";
 import { h, iconButton, shorten } from "../util/dom";
 import * as format from "../util/format";
-import { remember, loadStored } from "../util/storage";
+import { storeValue, loadStored } from "../util/storage";
 import { parseTime } from "../util/times";
 import { toast } from "../util/toast";
 
@@ -120,7 +120,7 @@ export class TimesDialog {
   }
 
   private store(bookmarks: Bookmark[]): void {
-    remember(this.key, bookmarks);
+    storeValue(this.key, bookmarks);
     this.fill();
     for (const listener of this.listeners) listener();
   }

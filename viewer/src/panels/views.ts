@@ -7,7 +7,7 @@ import type { View as CameraView } from "../scene/camera";
 import type { View } from "../scene/view";
 import { copyText, h, iconButton, shorten } from "../util/dom";
 import { link, linked } from "../util/link";
-import { remember, loadStored } from "../util/storage";
+import { storeValue, loadStored } from "../util/storage";
 import { toast } from "../util/toast";
 import { currentLayout, storeLayout } from "./layout";
 
@@ -173,7 +173,7 @@ export class ViewsPanel {
   }
 
   private store(): void {
-    remember("views", this.saved);
+    storeValue("views", this.saved);
     this.showList();
   }
 

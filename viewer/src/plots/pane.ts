@@ -7,7 +7,7 @@ import type { Model } from "../model/model";
 import { copyText, h, iconButton, select, setText, shorten } from "../util/dom";
 import * as format from "../util/format";
 import { link, linked } from "../util/link";
-import { remember, loadStored } from "../util/storage";
+import { storeValue, loadStored } from "../util/storage";
 import type { Theme } from "../util/theme";
 import { toast } from "../util/toast";
 import { Chart, TIME_AXIS_PX, valueText, type ChartEvents, type ChartStyle } from "./chart";
@@ -163,7 +163,7 @@ export class PlotsPane implements Pane {
 
   private notifyChange(): void {
     const expressions = this.curves.map(({ expression }) => expression);
-    remember("plots", expressions);
+    storeValue("plots", expressions);
     link("plot", expressions);
     this.rebuild();
     this.request();
@@ -171,7 +171,7 @@ export class PlotsPane implements Pane {
 
   private setWindow(seconds: number): void {
     this.seconds = seconds;
-    remember("plot-window", seconds);
+    storeValue("plot-window", seconds);
     link("window", [String(seconds)]);
     this.setZoom(null);
   }

@@ -5,7 +5,7 @@ import type * as THREE from "three";
 import { fillSelect, h, iconButton, select } from "../util/dom";
 import * as format from "../util/format";
 import type { Pose, Quaternion, Vector } from "../util/math";
-import { remember, loadStored } from "../util/storage";
+import { storeValue, loadStored } from "../util/storage";
 import type { Model } from "../model/model";
 import type { FramePoses } from "./frame_poses";
 import { LabelLayer, type Label } from "./labels";
@@ -156,7 +156,7 @@ export class Panes {
 
   notifyChange(): void {
     this.root.hidden = this.list.length === 0;
-    remember(
+    storeValue(
       "panes",
       this.list.map(({ settings }) => settings),
     );

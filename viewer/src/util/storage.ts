@@ -14,7 +14,7 @@ export function loadStored<T>(key: string, fallback: T): T {
   }
 }
 
-export function remember(key: string, value: unknown): void {
+export function storeValue(key: string, value: unknown): void {
   try {
     localStorage.setItem(PREFIX + key, JSON.stringify(value));
   } catch {

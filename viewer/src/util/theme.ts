@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Dark and light themes, and a palette that is safe for color-blind users. */
 
-import { remember, loadStored } from "./storage";
+import { storeValue, loadStored } from "./storage";
 
 export interface Palette {
   background: string;
@@ -41,13 +41,13 @@ export class Theme {
   toggleDark(): void {
     this.dark = !this.dark;
     this.background = null;
-    remember("theme", this.dark ? "dark" : "light");
+    storeValue("theme", this.dark ? "dark" : "light");
     this.apply();
   }
 
   toggleDistinct(): void {
     this.distinct = !this.distinct;
-    remember("distinct", this.distinct);
+    storeValue("distinct", this.distinct);
     this.apply();
   }
 
