@@ -60,9 +60,9 @@ def test_headers_have_no_gaps_in_typescript(generator):
     text = generator.typescript("x")
     for one in binary_messages.BINARY_RECORDS:
         (body,) = re.findall(rf"function read{one.__name__}.*?return {{(.*?)}};", text, re.DOTALL)
-        sizes = {"u32": 4, "f32": 4, "f64": 8}
-        size = sum(sizes[name] for name in re.findall(r"reader\.(\w32|f64)\(\)", body))
-        size += sum(4 * int(count) for count in re.findall(r"reader\.floats\((\d+)\)", body))
+        sizes = {"Uint32": 4, "Float32": 4, "Float64": 8}
+        size = sum(sizes[name] for name in re.findall(r"reader\.read(\w+32|Float64)\(\)", body))
+        size += sum(4 * int(count) for count in re.findall(r"reader\.readFloats\((\d+)\)", body))
         assert size == Layout(one).size, one
 
 
