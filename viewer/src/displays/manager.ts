@@ -135,19 +135,19 @@ export class Displays {
 
   renameGroup(group: RvizGroup, name: string): void {
     group.name = name.trim() || group.name;
-    this.changed();
+    this.notifyChange();
   }
 
   /** Moves a display into a group, by its place; "" is none, and null a new group. */
   setGroup(display: Display, source: string | null): void {
-    this.automatic = false;
+    this.showsNewTopics = false;
     display.config.group = source ?? this.addGroup();
     const checked = display.config.checked ?? display.config.enabled;
     this.groups = this.groups.filter((group) => this.isUsed(group));
     const shown = checked && this.groupsEnabled(display.config.group);
     display.config.checked = checked;
     if (shown !== display.config.enabled) this.setShown(display, shown);
-    this.changed();
+    this.notifyChange();
   }
 
   private addGroup(): string {
