@@ -123,6 +123,7 @@ RECORDED = {
     "calib diff": _cases(
         "calib diff", "{bag} {bag}", "{bag} {bag} --json", ["{bag}", "{bag}", "--rename", f"{MISSING}=x"]
     ),
+    "calib history": _cases("calib history", "{bag}", ["{bag}", "--pair", MISSING, f"/{MISSING}"]),
     "calibrate rigid": _cases("calibrate rigid", ["{bag}", f"map:{MISSING}", "map:x"], ["{bag}", MISSING, "a:b"]),
     "calibrate hand-eye": _cases("calibrate hand-eye", ["{bag}", MISSING, "x", "/tag"]),
     "why": _cases("why", *(["{bag}", "map", name] for name in (*NAMES[:-1], MISSING))),

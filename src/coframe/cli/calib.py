@@ -14,6 +14,7 @@ from click.exceptions import Exit
 from coframe.calibration import FORMATS, WRITABLE_FORMATS, CalibrationError, Tolerance, compare_rigs, read, write
 from coframe.cli.declaration import PATH, CommandGroup, argument
 from coframe.cli.lifecycle import run_to_completion
+from coframe.cli.mount_history import HISTORY_SUFFIXES, measured_in, pair_options, print_history, write_history
 from coframe.cli.output import fail, fail_to_write, printable
 
 if TYPE_CHECKING:
@@ -130,6 +131,42 @@ def diff(first: Path, second: Path, tolerance: str, rename: tuple[str, ...], as_
         found = compare_rigs(read(first), read(second), names)
         print(json.dumps(_as_dict(found, limits)) if as_json else _as_text(found, limits))
         if found.exceeds(limits):
+            raise Exit(_EXIT_DIFFERENT)
+
+
+@calib.command("history", short_help="Measure mounts in several recordings, and find sensors that have moved.")
+@argument("bags", metavar="BAG...", nargs=-1, required=True, help="Recordings of one robot.")
+@pair_options
+@click.option(
+    "--output",
+    "-o",
+    metavar="FILE",
+    type=PATH,
+    help=f"Write one row per mount and recording: {', '.join(HISTORY_SUFFIXES)}.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print JSON, in meters and radians.")
+def history(
+    bags: tuple[str, ...],
+    pairs: tuple[tuple[str, str], ...],
+    rigid: tuple[tuple[str, str], ...],
+    output: Path | None,
+    as_json: bool,
+) -> None:
+    """Measure the mounts between sensors in each recording, and exit with 1 if a sensor has moved.
+
+    Two sensors that see one thing at the same time, such as two cameras and a tag, show the mount between them. Without
+    --pair, all topics with poses whose frames have a static transform are used. A sensor has moved if two recordings in
+    a row show it above four standard deviations, with an unchanged /tf_static.
+
+    Example: coframe calib history runs/*.mcap --pair /left/tag /right/tag -o mounts.parquet
+    """
+    if output is not None and output.suffix.lower() not in HISTORY_SUFFIXES:
+        fail(f"--output {output}: unknown suffix {output.suffix!r}. Suffixes: {', '.join(HISTORY_SUFFIXES)}", code=2)
+    with run_to_completion():
+        mounts = measured_in(bags, pairs, rigid)
+        if output is not None:
+            write_history(mounts, output)
+        if print_history(mounts, as_json=as_json):
             raise Exit(_EXIT_DIFFERENT)
 
 

@@ -21,6 +21,7 @@ from coframe.cli.declaration import PATH, Command
 from coframe.cli.doctor_clocks import show_clocks
 from coframe.cli.doctor_fix import fix_recording, print_recipe
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
+from coframe.cli.mount_history import measured_in, pair_options, print_history
 from coframe.cli.options import (
     PositiveDuration,
     domain_option,
@@ -112,6 +113,14 @@ _CPU_SHARE = 0.006
     "--clocks", is_flag=True, help="Print the offset and the drift of each publisher's clock instead of the report."
 )
 @click.option(
+    "--baseline",
+    "baselines",
+    metavar="BAG",
+    multiple=True,
+    help="Earlier recording of the robot: find sensors that have moved since then, instead of the report; repeatable.",
+)
+@pair_options
+@click.option(
     "--output", "-o", metavar="FILE", type=PATH, help="With --clocks: a plot of the delays (.svg, .png, .html)."
 )
 @namespace_option
@@ -137,6 +146,9 @@ def doctor(
     fixed: Path | None,
     yes: bool,
     clocks: bool,
+    baselines: tuple[str, ...],
+    pairs: tuple[tuple[str, str], ...],
+    rigid: tuple[tuple[str, str], ...],
     output: Path | None,
     namespace: str | None,
     domain: int | None,
@@ -155,6 +167,8 @@ def doctor(
     Example: coframe doctor run.mcap --ignore TF018
 
     Example: coframe doctor run.mcap --fix repaired.mcap
+
+    Example: coframe doctor thursday.mcap --baseline tuesday.mcap --baseline wednesday.mcap
     """
     if list_codes or explain is not None:
         _print_page(explain, as_json)
@@ -166,6 +180,9 @@ def doctor(
         print_graph()
     if system or shows_graph or report_failed:
         _check_system(bag, domain, duration, as_json=as_json, watch=watch, sarif=sarif)
+        return
+    if baselines or pairs or rigid:
+        _compare_mounts(bag, baselines, pairs, rigid, as_json=as_json)
         return
     ignored = _known_codes(ignore)
     _check_combination(bag, watch=watch, as_json=as_json, sarif=sarif)
@@ -191,6 +208,22 @@ def doctor(
                 examine = partial(_examine, ignored=ignored, cache=cache)
                 fix_recording(bag, fixed, reports, examine, yes=yes)
             _print_and_exit(reports, as_json, sarif, bag, fail_on)
+
+
+def _compare_mounts(
+    bag: Readable | None,
+    baselines: tuple[str, ...],
+    pairs: tuple[tuple[str, str], ...],
+    rigid: tuple[tuple[str, str], ...],
+    *,
+    as_json: bool,
+) -> None:
+    """Print which sensors have moved since the earlier recordings, and exit with 1 if one of them has."""
+    if bag is None or not baselines:
+        fail("--baseline, --pair and --rigid need the recording BAG and a --baseline", code=2)
+    with run_to_completion():
+        if print_history(measured_in([*baselines, str(bag)], pairs, rigid), as_json=as_json):
+            raise Exit(1)
 
 
 def _examine_graph(

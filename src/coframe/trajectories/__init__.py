@@ -15,6 +15,7 @@ from coframe.trajectories._comparison import (
 )
 from coframe.trajectories._offsets import BodyOffset, TimeShift
 from coframe.trajectories._reading import READABLE_FORMATS, read_trajectory
+from coframe.trajectories._resampling import resample
 from coframe.trajectories.formats import FORMATS, format_of, write_trajectory
 
 __all__ = [
@@ -36,5 +37,6 @@ __all__ = [
     "format_of",
     "parse_delta",
     "read_trajectory",
+    "resample",
     "write_trajectory",
 ]

@@ -24,6 +24,7 @@ from coframe.trajectories._alignment import (
 )
 from coframe.trajectories._association import MAX_DIFFERENCE, associate
 from coframe.trajectories._offsets import BodyOffset, TimeShift, find_body_offset, find_time_shift
+from coframe.trajectories._resampling import median_period, resample
 from coframe.transform.transform import Transform
 
 if TYPE_CHECKING:
@@ -36,7 +37,6 @@ __all__ = ["PLANES", "Comparison", "Delta", "PoseErrors", "Statistics", "compare
 # The axis that a projection to a plane removes.
 PLANES = {"xy": 2, "xz": 1, "yz": 0}
 _NUMBER = re.compile(r"\s*(\d+(?:\.\d*)?|\.\d+)\s*([a-z]*)\s*", re.ASCII)
-_MAX_GAP_PERIODS = 4
 _FRAME_UNITS, _METER_UNITS = {"", "f", "frame", "frames"}, {"m", "meter", "meters", "metre", "metres"}
 
 
@@ -236,7 +236,8 @@ def compare_trajectories(
     method = _Method(align, n_to_align, align_origin)
     if t_offset == "auto":
         shift = _best_shift(reference, estimate, method)
-        estimate = _resample(_shift_stamps(estimate, shift), reference)
+        shifted = resample(_shift_stamps(estimate, shift), np.asarray(reference.stamps))
+        estimate = shifted if len(shifted) else _shift_stamps(estimate, shift)
     else:
         shift = _signed_duration(t_offset)
         estimate = _shift_stamps(estimate, shift)
@@ -333,26 +334,6 @@ def _best_body_offset(reference: Transform, estimate: Transform, method: _Method
     return found.transform
 
 
-def _resample(poses: Transform, reference: Transform) -> Transform:
-    """Return poses at the stamps of the reference, except outside the poses and in gaps between them."""
-    assert poses.stamps is not None
-    assert reference.stamps is not None
-    known, rows = np.unique(np.asarray(poses.stamps, np.int64), return_index=True)
-    at = np.unique(np.asarray(reference.stamps, np.int64))
-    if len(known) < 2:
-        return poses
-    after = np.searchsorted(known, at).clip(1, len(known) - 1)
-    length = known[after] - known[after - 1]
-    at_sample = (at == known[after]) | (at == known[after - 1])
-    usable = (at >= known[0]) & (at <= known[-1]) & ((length <= _MAX_GAP_PERIODS * _period(poses)) | at_sample)
-    if not usable.any():
-        return poses
-    at, after, length = at[usable], after[usable], length[usable]
-    share = (at - known[after - 1]) / length
-    first, second = (Transform(poses.translation[i], poses.quaternion[i]) for i in (rows[after - 1], rows[after]))
-    return first.interpolate(second, share).replace(target=poses.target, source=poses.source, stamp=at)
-
-
 def _associate_poses(
     reference: Transform, estimate: Transform, method: _Method, max_difference: DurationLike
 ) -> tuple[Transform, Transform]:
@@ -378,19 +359,12 @@ def _constant_differences(
     if shift is None:
         return None, offset
     # The shift may lie between the stamps.
-    nearest = max(duration_ns(max_difference), *map(_period, (reference, estimate)))
+    nearest = max(duration_ns(max_difference), *map(median_period, (reference, estimate)))
     with suppress(TrajectoryError):
         offset = find_body_offset(
             *associate(reference, _shift_stamps(estimate, shift.offset), nearest), method.alignment
         )
     return shift, offset
-
-
-def _period(poses: Transform) -> int:
-    """Return the median time between two poses in nanoseconds, or 0 without stamps."""
-    if poses.stamps is None or len(poses) < 2:
-        return 0
-    return int(np.median(np.abs(np.diff(poses.stamps))))
 
 
 def _project_poses(poses: Transform, axis: int) -> Transform:
