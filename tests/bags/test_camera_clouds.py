@@ -4,6 +4,8 @@
 A box stands in front of the wall. The lidar is above the camera, so that it measures the wall behind the box.
 """
 
+import struct
+
 import numpy as np
 import pytest
 import recordings
@@ -36,6 +38,13 @@ def truth():
     buffer.set("base", "camera", optical, static=True)
     buffer.set("base", "lidar", coframe.Transform([0.2, 0.0, 2.5]), static=True)
     return buffer
+
+
+def transforms():
+    """Return times and messages of the transforms; the mounts of the sensors are repeated like all others."""
+    buffer, times = truth(), [START + i * SECOND // 50 for i in range(101)]
+    edges = (("map", "base"), ("base", "camera"), ("base", "lidar"))
+    return [(at, recordings.cdr(*edge, buffer.lookup(*edge, at), at)) for at in times for edge in edges]
 
 
 def camera_info(stamp, model="plumb_bob", d=(-0.2, 0.05, 0.001, 0.0, 0.0), **fields):
@@ -103,14 +112,7 @@ def sweep(stamp):
 @pytest.fixture(scope="module")
 def path(tmp_path_factory):
     """Return a recording with clouds, color images and depth images."""
-    rows, buffer = [], truth()
-    for i in range(101):
-        at = START + i * SECOND // 50
-        rows.append(("/tf", at, recordings.cdr("map", "base", buffer.lookup("map", "base", at), at)))
-    rows += [
-        ("/tf_static", START, recordings.cdr("base", frame, buffer.lookup("base", frame), START))
-        for frame in ("camera", "lidar")
-    ]
+    rows = [("/tf", at, data) for at, data in transforms()]
     info = camera_info(TAKEN)
     depths, colors = seen(info, TAKEN)
     messages = [
@@ -251,3 +253,31 @@ def test_what_cannot_be_colored_is_reported(path, tmp_path):
         assert code == 1, output
         assert sentence in output
     assert run("/points", "--frame", "map", "--color", "/alone/image_raw", "--color-info", "/cam/camera_info")[0] == 0
+
+
+def test_compressed_images_of_any_size_are_safe(path, tmp_path):
+    """A small file that claims to be an image of 3.6 gigapixels is not decoded."""
+    cv2 = pytest.importorskip("cv2")
+    _, colors = seen(camera_info(TAKEN), TAKEN)
+    whole = cv2.imencode(".png", colors[:, :, ::-1])[1].tobytes()
+    huge = whole[:16] + struct.pack(">II", 60_000, 60_000) + whole[24:]
+    with coframe.open_bag(path) as recording:
+        reference = Clouds(recording, "/points", "map", color="/cam/image_raw")
+        (expected,) = reference
+    for data, colored in ((whole, reference.colored), (huge, 0), (whole[:300], 0), (b"GIF89a", 0)):
+        image = find("sensor_msgs/msg/CompressedImage")(format="png", data=data)
+        image.header = image_message("rgb8", colors, TAKEN).header
+        messages = [
+            ("/points", sweep(START + SECOND)),
+            ("/c/camera_info", camera_info(TAKEN)),
+            ("/c/i/compressed", image),
+        ]
+        types = {topic: (type(message).ROS_TYPE, "ros2msg", b"", "cdr") for topic, message in messages}
+        rows = [(topic, TAKEN, serialize(message)) for topic, message in messages]
+        rows += [("/tf", at, cdr) for at, cdr in transforms()]
+        with coframe.open_bag(recordings.write_mcap(tmp_path / "run.mcap", rows=rows, types=types)) as recording:
+            clouds = Clouds(recording, "/points", "map", color="/c/i/compressed", color_info="/c/camera_info")
+            (cloud,) = clouds
+        assert clouds.colored == colored
+        assert bool(clouds.not_colored) == (colored == 0)
+        np.testing.assert_array_equal(xyz(cloud.points), xyz(expected.points))

@@ -10,6 +10,7 @@ import numpy as np
 from coframe._process.optional_imports import import_optional
 from coframe.cameras import CameraModel, camera_info_topic, is_rectified_topic
 from coframe.errors import CameraError, DecodeError, RecordingError, TransformException
+from coframe.sensors.compressed_images import MAX_COMPRESSED_PIXELS, compressed_size
 from coframe.sensors.image_pixels import decode_image
 from coframe.type_names import CAMERA_INFO, COMPRESSED_IMAGE, IMAGE
 
@@ -138,6 +139,9 @@ def _check_type(recording: Recording, topic: str, types: tuple[str, ...]) -> Non
 
 def _decode_compressed(image: Any) -> NDArray[Any]:
     cv2 = import_optional("cv2", "Decoding compressed images", "opencv")
+    width, height = compressed_size(bytes(image.data[: 1 << 16]))
+    if width * height > MAX_COMPRESSED_PIXELS:
+        raise DecodeError(f"an image of {width} x {height} pixels is too large. Limit: {MAX_COMPRESSED_PIXELS} pixels")
     try:
         pixels = cv2.imdecode(np.frombuffer(image.data, np.uint8), cv2.IMREAD_COLOR | cv2.IMREAD_IGNORE_ORIENTATION)
     except cv2.error as error:

@@ -4,12 +4,17 @@
 from __future__ import annotations
 
 import math
-import struct
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from coframe.errors import DecodeError
+from coframe.sensors.compressed_images import (
+    JPEG_SIGNATURE,
+    MAX_COMPRESSED_PIXELS,
+    PNG_SIGNATURE,
+    compressed_size,
+)
 from coframe.sensors.depth_images import decode_compressed_depth, decode_gray_png, is_gray_16
 from coframe.sensors.image_pixels import Pixels, decode_image
 from coframe.time import stamp_ns
@@ -28,14 +33,9 @@ if TYPE_CHECKING:
 
 __all__ = ["CAMERA", "IMAGE", "draw_compressed_image", "draw_image"]
 
-MAX_COMPRESSED_PIXELS = 1 << 25  # A small file may need a lot of memory in the browser.
 MAX_COMPRESSED_BYTES = 16 << 20
 _FORMATS = {"uint8": ImageFormat.GRAY, "uint16": ImageFormat.GRAY16, "float32": ImageFormat.FLOAT}
 _COMPRESSED_FORMATS = "JPEG, PNG, compressedDepth, h264, h265"
-_JPEG, _PNG = b"\xff\xd8", b"\x89PNG\r\n\x1a\n"
-# JPEG markers without a length, and those of the frame headers that contain the image size.
-_MARKERS_WITHOUT_LENGTH = {0x01, *range(0xD0, 0xD9)}
-_SIZE_MARKERS = {*range(0xC0, 0xD0)} - {0xC4, 0xC8, 0xCC}
 
 
 def draw_image(image: Any, options: Options) -> Drawing:
@@ -79,43 +79,23 @@ def draw_compressed_image(image: Any, options: Options) -> Drawing:
         return _draw_decoded(image, decode_compressed_depth, options)
     data = np.frombuffer(image.data, np.uint8)
     head = bytes(data[: 1 << 16])
-    if not head.startswith((_JPEG, _PNG)):
+    if not head.startswith((JPEG_SIGNATURE, PNG_SIGNATURE)):
         raise CannotDrawError(f"image format {image.format[:40]!r} is not supported. Supported: {_COMPRESSED_FORMATS}")
     if is_gray_16(head):  # The browser would reduce it to eight bits.
         return _draw_decoded(image, lambda _image: decode_gray_png(bytes(data)), options)
-    width, height = _size_of_png(head) if head.startswith(_PNG) else _size_of_jpeg(head)
+    try:
+        width, height = compressed_size(head)
+    except DecodeError as error:
+        raise CannotDrawError(str(error)) from None
     if width * height > MAX_COMPRESSED_PIXELS or len(data) > MAX_COMPRESSED_BYTES:
         raise CannotDrawError(
             f"an image of {width} x {height} pixels in {len(data)} bytes is too large. Limits: "
             f"{MAX_COMPRESSED_PIXELS} pixels, {MAX_COMPRESSED_BYTES} bytes"
         )
-    kind = ImageFormat.PNG if head.startswith(_PNG) else ImageFormat.JPEG
+    kind = ImageFormat.PNG if head.startswith(PNG_SIGNATURE) else ImageFormat.JPEG
     stamp = stamp_ns(image.header.stamp)
     message = encode_image(kind, width, height, data, float(stamp - options.origin))
     return Drawing(image.header.frame_id, stamp, message, placed=False)
-
-
-def _size_of_png(head: bytes) -> tuple[int, int]:
-    if len(head) < 24:
-        raise CannotDrawError("the PNG data is incomplete")
-    width, height = struct.unpack_from(">II", head, 16)
-    return int(width), int(height)
-
-
-def _size_of_jpeg(head: bytes) -> tuple[int, int]:
-    at = 2
-    while at + 9 <= len(head) and head[at] == 0xFF:
-        marker = head[at + 1]
-        if marker in _SIZE_MARKERS:
-            height, width = struct.unpack_from(">HH", head, at + 5)
-            return int(width), int(height)
-        if marker == 0xFF:
-            at += 1
-        elif marker in _MARKERS_WITHOUT_LENGTH:
-            at += 2
-        else:
-            at += 2 + int.from_bytes(head[at + 2 : at + 4], "big")
-    raise CannotDrawError("the JPEG data contains no image size")
 
 
 class CompressedImageRenderer:
