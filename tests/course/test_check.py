@@ -192,6 +192,20 @@ def test_ctrl_c_ends_the_grades_of_a_class(tmp_path):
     assert not any(str(tmp_path).encode() in each for each in command_lines())
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="finds processes in /proc")
+def test_a_grade_ends_with_the_process_that_wants_it(folder, eventually):
+    (folder / "static_tf_broadcaster.py").write_text("while True: pass")
+    words = [sys.executable, "-m", "coframe.cli", "lab", "check", folder, "--only", "static"]
+    process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    ours = str(folder).encode()
+    eventually(lambda: any(ours in each and b"static_tf_broadcaster.py" in each for each in command_lines()))
+    process.kill()
+    process.wait()
+    killed_at = time.monotonic()
+    eventually(lambda: not any(ours in each for each in command_lines()))
+    assert time.monotonic() - killed_at < 5.0, "it ended because it was complete"
+
+
 def command_lines():
     found = []
     for path in Path("/proc").glob("[0-9]*/cmdline"):

@@ -10,6 +10,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
@@ -40,6 +41,7 @@ def main() -> None:
     criteria; "number", that of the grade among those at the same time; "record", a folder for a recording or null; and
     "private", see `private_folders`.
     """
+    threading.Thread(target=_end_with_parent, daemon=True).start()
     job = json.loads(sys.argv[1])
     folder, scratch = Path(job["folder"]), Path(job["scratch"])
     with contextlib.suppress(OSError):
@@ -69,6 +71,13 @@ def main() -> None:
             _grade(folder, assignment, scratch, confinement, job["only"], lambda sheet: write("sheet", sheet.as_dict()))
         except CourseError as error:
             write("error", [str(error), error.hint])
+
+
+def _end_with_parent() -> None:
+    """End this process, and with it its namespaces, when the process that wants the grade has ended."""
+    while os.read(sys.stdin.fileno(), 1):
+        pass
+    os._exit(1)
 
 
 def _grade(

@@ -84,15 +84,16 @@ def check_folder(
         with log.open("wb") as errors:
             process = subprocess.Popen(  # noqa: S603 - this Python, with arguments of ours
                 isolated_command(python_command("coframe.course._grading", json.dumps(job))),
-                stdin=subprocess.DEVNULL,
+                stdin=subprocess.PIPE,  # The grade ends when it is closed, even if this process is killed.
                 stdout=subprocess.PIPE,
                 stderr=errors,
                 cwd=scratch,
                 env=isolated_environment(number, scratch),
                 start_new_session=True,
             )
+        assert process.stdin is not None
         assert process.stdout is not None
-        with process.stdout as output:
+        with process.stdin, process.stdout as output:
             results = _Results(output, max_seconds)
             try:
                 results.follow(progress, cancelled or threading.Event())
