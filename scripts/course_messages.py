@@ -28,7 +28,7 @@ MODULES = (
     *sorted((COURSE / "criteria").glob("*.py")),
     *(
         COURSE / f"{name}.py"
-        for name in ("_program", "_confinement", "_sheet", "assignment", "checking", "class_folder")
+        for name in ("_program", "_confinement", "_sheet", "_world", "assignment", "checking", "class_folder")
     ),
     *(COURSE / f"{name}.py" for name in ("faults", "first_output", "folders", "formats", "isolation")),
     *(COURSE / f"{name}.py" for name in ("rubric", "submitted")),

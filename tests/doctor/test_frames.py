@@ -16,7 +16,7 @@ from runs import Run
 
 from coframe.cli import frames_screen
 from coframe.cli.app import app
-from coframe.cli.frames_screen import tree, tree_tables
+from coframe.cli.frames_screen import _fitting, tree, tree_tables
 from coframe.doctor import observe_recording
 from coframe.tree_drawing import build_forest
 
@@ -190,3 +190,10 @@ def test_long_tables_are_printed_in_parts_that_look_like_one(tmp_path, monkeypat
         parts.print(part)
     assert len(list(tree_tables(forest))) == 7
     assert parts.file.getvalue() == whole.file.getvalue()
+
+
+def test_names_are_complete_in_a_narrow_table_and_the_last_numbers_are_omitted():
+    wide = {0: 27, 1: 30, 2: 5, 3: 9, 4: 8}
+    assert list(_fitting(wide, 100)) == [0, 1, 2, 3, 4]
+    assert list(_fitting(wide, 60)) == [0, 1, 2, 3]
+    assert list(_fitting(wide, 20)) == [0]

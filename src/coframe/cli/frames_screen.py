@@ -14,7 +14,7 @@ from rich.table import Table
 from rich.text import Text
 
 from coframe._output.formatting import count
-from coframe.cli.output import print_bounded
+from coframe.cli.output import print_bounded, report_console
 from coframe.tree_drawing import build_forest, changes
 from coframe.tree_drawing.labels import summary
 from coframe.tree_drawing.plain import as_data
@@ -32,6 +32,7 @@ __all__ = ["tree", "tree_tables", "watch"]
 _KIND_STYLES = {"root": "bold", "moving": "cyan", "static": "", "stale": "red", "other": "red"}
 _CHANGE_STYLES = {"new": "green", "moved": "yellow", "stale": "red", "resumed": "green", "gone": "red"}
 _PUBLISHER_COLUMN = 1  # index of the column
+_MIN_PUBLISHER = 12  # columns of the terminal, below which the last numbers are omitted
 _HIGHLIGHT_TIME = 5.0  # seconds
 _MAX_CHANGES = 1000  # kept for highlighting
 _LISTED_CHANGES = 8  # below the tree
@@ -77,7 +78,21 @@ def _columns(every: list[Row]) -> dict[int, int]:
         ]
         for number in range(len(COLUMNS))
     }
-    return {number: max(map(cell_len, texts)) for number, texts in cells.items() if number == 0 or any(texts[1:])}
+    used = {number: max(map(cell_len, texts)) for number, texts in cells.items() if number == 0 or any(texts[1:])}
+    return _fitting(used, report_console().width)
+
+
+def _fitting(columns: dict[int, int], width: int) -> dict[int, int]:
+    """Return the columns that fit a terminal with complete names: the last numbers are omitted first."""
+    kept = dict(columns)
+    needed = {
+        number: min(size, _MIN_PUBLISHER) if number == _PUBLISHER_COLUMN else size for number, size in kept.items()
+    }
+    for number in sorted(columns, reverse=True)[:-1]:
+        if sum(needed[each] + 1 for each in kept) - 1 <= width:
+            break
+        del kept[number]
+    return kept
 
 
 def _table(shown: list[Row], columns: dict[int, int], changed: dict[str, str]) -> Table:

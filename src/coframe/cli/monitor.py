@@ -230,7 +230,8 @@ def _cells(*cells: str) -> list[Text]:
 def _table(*columns: str) -> Table:
     table = Table(box=None, pad_edge=False, header_style="dim")
     for column in columns:
-        # In a narrow terminal, names are truncated first: rich shrinks columns that may wrap, although no cell does.
+        # In a narrow terminal, numbers and publishers are truncated first: rich shrinks columns that may wrap, although
+        # no cell does.
         is_name = column in {"edge", "publisher"}
-        table.add_column(column, justify="left" if is_name else "right", no_wrap=not is_name)
+        table.add_column(column, justify="left" if is_name else "right", no_wrap=column == "edge")
     return table
