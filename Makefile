@@ -16,10 +16,10 @@ PYTEST := env -u PYTHONDONTWRITEBYTECODE PYTHONPYCACHEPREFIX=$(CURDIR)/build/pyc
 BUILD_TOOLS = $(shell sed -n 's/^requires = \[\(.*\)\]/\1/p' pyproject.toml | sed 's/", "/" "/g')
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build build-split demo test test-browser test-zenoh test-fastdds test-shared test-slow test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint licenses audit typecheck format conformance bench generate generate-check page page-check clean
+.PHONY: help setup build build-split demo test test-browser test-zenoh test-fastdds test-shared test-slow test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint licenses audit typecheck format conformance bench generate generate-check pictures page page-check clean
 
 help: ## list the targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-18s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 # The demo needs a quarter of what the tests need, so it has a set-up of its own. Either one builds the native core.
 $(DEMO_STAMP): pyproject.toml scripts/make_venv.sh $(NATIVE)
@@ -135,12 +135,13 @@ docs: $(VENV)/.docs ## build the documentation site into build/site and check it
 conformance: $(STAMP) ## check tf2's semantics case by case
 	@$(BIN)/python conformance/run.py $(ARGS)
 
-lint: $(LINT_STAMP) ## check style, words, licenses of files and import directions
+lint: $(LINT_STAMP) ## check style, words, licenses of files, references to files and import directions
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	git ls-files '*.cpp' '*.hpp' '*.inc' | xargs $(BIN)/clang-format --dry-run --Werror
 	$(BIN)/python scripts/check_words.py
 	$(BIN)/python scripts/check_spdx.py
+	$(BIN)/python scripts/check_paths.py
 	$(BIN)/python scripts/check_imports.py
 
 generate-check: $(STAMP) ## check that generated files are what their generators write
@@ -198,6 +199,9 @@ generate: $(STAMP) ## generate the message classes from interfaces/, the page ab
 	$(BIN)/python scripts/generate_messages.py
 	$(BIN)/python scripts/generate_distributions.py
 	$(BIN)/python scripts/generate_protocol.py
+
+pictures: $(STAMP) ## draw all pictures of the documentation again (needs Chromium; ARGS="gallery" draws some)
+	$(BIN)/python scripts/pictures.py $(ARGS)
 
 page: ## build the viewer's page from viewer/ into src/coframe/viewer/static (needs Node.js and npm)
 	cd viewer && npm ci --silent && npm run --silent build

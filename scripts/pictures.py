@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draw the pictures of running programs: docs/images/viewer*.png and docs/handbook/*.webp.
+"""Draw all pictures of the documentation: docs/images and docs/handbook.
 
-The pictures of the handbook show what the programs of its chapters show in the viewer, or `coframe demo`.
-Needs Chromium, the packages playwright and pillow, and a minute.
+The pictures of the handbook show what the programs of its chapters show in the viewer, or `coframe demo`; those of the
+gallery show what the programs in examples do. `make pictures` draws everything.
+Needs Chromium, the packages playwright and pillow, and some minutes.
 
 Example:
     python scripts/pictures.py             draw all pictures
-    python scripts/pictures.py 02 viewer   draw those whose names begin like this
+    python scripts/pictures.py 02 viewer   draw the chapters and pictures whose names begin like this
+    python scripts/pictures.py gallery     draw the gallery; gallery/21 draws one picture of it
+    python scripts/pictures.py figures     draw the figures that need no browser
+    python scripts/pictures.py demo        record the animation
 """
 
 from __future__ import annotations
@@ -21,6 +25,8 @@ import sys
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
+import demo_animation
+import gallery
 from demo_animation import BROWSER_ARGUMENTS, wait_for
 from handbook_notebooks import CHAPTERS, HANDBOOK
 from PIL import Image
@@ -43,6 +49,7 @@ DOMAIN = "97"
 SIZE, PHONE = (1280, 800), (390, 760)  # pixels
 CHAPTER_SIZE = (960, 540)
 MAX_BYTES = 100_000  # of one picture of the handbook
+FIGURES = ("conventions_figures.py", "handbook_figures.py")  # written without a browser
 SETTLING = 4000  # milliseconds, until the simulation has started and the camera has found its place
 
 
@@ -159,34 +166,47 @@ def write_image(name: str, picture: bytes) -> None:
     print(f"{target}: {target.stat().st_size // 1000} kB")
 
 
+def draw_programs(browser: Browser, wanted: tuple[str, ...]) -> None:
+    """Draw the pictures of the chapters and of the viewer whose names begin with a wanted one."""
+    chapters = [chapter for chapter in CHAPTERS if chapter.name.startswith(wanted)]
+    for chapter in chapters:
+        if chapter.stem not in OF_THE_DEMO:
+            with viewer_of(chapter) as viewer:
+                prepare = OF_A_PROGRAM.get(chapter.stem, nothing)
+                write_chapter(chapter.stem, drawn(browser, viewer.url, CHAPTER_SIZE, prepare))
+    of_demo = [chapter.stem for chapter in chapters if chapter.stem in OF_THE_DEMO]
+    if of_demo or "viewer".startswith(wanted):
+        with running_demo() as url:
+            for name in of_demo:
+                write_chapter(name, drawn(browser, url, CHAPTER_SIZE, OF_THE_DEMO[name]))
+            if "viewer".startswith(wanted):
+                write_image("viewer.png", drawn(browser, url, SIZE, select_camera, color_scheme="dark"))
+                phone = {"device_scale_factor": 2, "is_mobile": True, "has_touch": True, "color_scheme": "dark"}
+                write_image("viewer_phone.png", drawn(browser, url, PHONE, nothing, **phone))
+    if "viewer".startswith(wanted):
+        ground = coframe.Buffer()
+        ground.set("map", "base_link", coframe.Transform(), static=True)
+        os.chdir(ARM.parent)  # The page shows the path.
+        with ground.show(robot=ARM.name) as viewer:
+            write_image("viewer_light.png", drawn(browser, viewer.url, SIZE, move_joints, color_scheme="light"))
+
+
 def main() -> None:
     program = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
     if program is None:
         sys.exit("The pictures need Chromium: apt-get install chromium")
     wanted = tuple(sys.argv[1:]) or ("",)
-    chapters = [chapter for chapter in CHAPTERS if chapter.name.startswith(wanted)]
+    if "figures".startswith(wanted):
+        for script in FIGURES:
+            subprocess.run([sys.executable, DOCS.parent / "scripts" / script], check=True)
+    if "demo".startswith(wanted):
+        demo_animation.main()
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=program, args=BROWSER_ARGUMENTS)
-        for chapter in chapters:
-            if chapter.stem not in OF_THE_DEMO:
-                with viewer_of(chapter) as viewer:
-                    prepare = OF_A_PROGRAM.get(chapter.stem, nothing)
-                    write_chapter(chapter.stem, drawn(browser, viewer.url, CHAPTER_SIZE, prepare))
-        of_demo = [chapter.stem for chapter in chapters if chapter.stem in OF_THE_DEMO]
-        if of_demo or "viewer".startswith(wanted):
-            with running_demo() as url:
-                for name in of_demo:
-                    write_chapter(name, drawn(browser, url, CHAPTER_SIZE, OF_THE_DEMO[name]))
-                if "viewer".startswith(wanted):
-                    write_image("viewer.png", drawn(browser, url, SIZE, select_camera, color_scheme="dark"))
-                    phone = {"device_scale_factor": 2, "is_mobile": True, "has_touch": True, "color_scheme": "dark"}
-                    write_image("viewer_phone.png", drawn(browser, url, PHONE, nothing, **phone))
-        if "viewer".startswith(wanted):
-            ground = coframe.Buffer()
-            ground.set("map", "base_link", coframe.Transform(), static=True)
-            os.chdir(ARM.parent)  # The page shows the path.
-            with ground.show(robot=ARM.name) as viewer:
-                write_image("viewer_light.png", drawn(browser, viewer.url, SIZE, move_joints, color_scheme="light"))
+        draw_programs(browser, wanted)
+        for name in wanted:
+            if name == "" or name.startswith("gallery"):
+                gallery.draw(browser, name.removeprefix("gallery").removeprefix("/"))
         browser.close()
 
 

@@ -29,6 +29,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PAGES_OF_FILES = {
     "CHANGELOG.md": "changelog.md",
     "CONTRIBUTING.md": "contributing.md",
+    "CODE_OF_CONDUCT.md": "code-of-conduct.md",
     "benchmarks/README.md": "benchmarks.md",
     "conformance/README.md": "conformance.md",
 }
