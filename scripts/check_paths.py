@@ -22,7 +22,7 @@ FENCE = re.compile(r"^([ \t]*)(```+|~~~+).*?^\1\2", re.MULTILINE | re.DOTALL)
 SKIPPED = ("CHANGELOG.md", "docs/reliability-log.md", "src/ros/", "interfaces/", "viewer/node_modules/")
 # Made by a build, or an example of a name.
 NOT_TRACKED = re.compile(
-    r"NAME|PACKAGE|\{package\}|\bTF0\d\d\b|viewer/node_modules|/_bundled\b|^scripts/(?:a|old)\.py$|/X\b"
+    r"NAME|LANGUAGE|PACKAGE|\{package\}|\bTF0\d\d\b|viewer/node_modules|/_bundled\b|^scripts/(?:a|old)\.py$|/X\b"
 )
 
 
