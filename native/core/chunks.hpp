@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The storage of samples: chunks of two sizes that are not returned to the system while their pool exists. A reader
+// The storage of samples: chunks of a few sizes that are not returned to the system while their pool exists. A reader
 // that is too late reads old or wrong numbers, which it detects by the revision, but never foreign memory.
 #pragma once
 
@@ -84,42 +84,56 @@ static_assert(sizeof(SharedSample) == 64);
 struct Chunk {
   // Large enough that insertions rarely allocate.
   static constexpr std::size_t kSize = 256;
-  // For the first samples of a frame: large trees have many frames that move slowly or for a short time.
-  static constexpr std::size_t kShortSize = 32;
 
   std::array<RelaxedAtomic<Stamp>, kSize> stamps;
   std::array<SharedSample, kSize> samples;
 };
 static_assert(sizeof(Chunk) == Chunk::kSize * (sizeof(Stamp) + sizeof(SharedSample)));
 
-// The numbers of samples that a chunk may have room for.
-enum class ChunkLength : std::uint32_t { shorter = Chunk::kShortSize, full = Chunk::kSize };
+// The numbers of samples that a chunk may have room for. The first chunk of a frame starts with the fewest and is
+// replaced by the next longer one: large trees have many frames that move slowly or for a short time.
+inline constexpr std::array<std::size_t, 3> kChunkLengths{12, 32, Chunk::kSize};
 
-// What precedes a chunk that belongs to a pool. After it, a short chunk has the beginning of the memory of a chunk.
+// What precedes a chunk that belongs to a pool. Of a chunk that is not full, only the first stamps and the first
+// samples belong to it; other chunks may lie in between.
 struct alignas(64) ChunkHeader {
-  explicit ChunkHeader(ChunkLength length) : length(length) {}
+  explicit ChunkHeader(std::size_t length) : length(static_cast<std::uint32_t>(length)) {}
 
-  Atomic<std::uint32_t> holders{0};  // the history that contains the chunk and its snapshots
-  const ChunkLength length;
+  Atomic<std::uint32_t> holders{0};       // the history that contains the chunk and its snapshots
+  const std::uint32_t length;             // one of kChunkLengths
   RelativePointer<ChunkHeader> previous;  // in a ChunkList
 
-  std::size_t size() const { return static_cast<std::size_t>(length); }
   Chunk* chunk() { return reinterpret_cast<Chunk*>(this + 1); }
   static ChunkHeader* of(Chunk* chunk) { return reinterpret_cast<ChunkHeader*>(chunk) - 1; }
-  static constexpr std::size_t bytes(ChunkLength length) {
-    return sizeof(ChunkHeader) + offsetof(Chunk, samples) + static_cast<std::size_t>(length) * sizeof(SharedSample);
+  static constexpr std::size_t samples_start() { return sizeof(ChunkHeader) + offsetof(Chunk, samples); }
+  static constexpr std::size_t bytes(std::size_t length) { return samples_start() + length * sizeof(SharedSample); }
+  // Returns the smallest distance of chunks with that length of which no two overlap.
+  static constexpr std::size_t distance(std::size_t length) {
+    std::size_t distance = alignof(ChunkHeader);
+    while (overlap(length, distance)) distance += alignof(ChunkHeader);
+    return distance;
   }
-  // Creates a chunk with its header in `bytes(length)` bytes of memory.
-  static ChunkHeader* create(void* memory, ChunkLength length) {
+  // Creates a chunk with its header at the start of `bytes(length)` bytes of memory.
+  static ChunkHeader* create(void* memory, std::size_t length) {
     auto* header = new (memory) ChunkHeader(length);
-    auto* stamps = reinterpret_cast<RelaxedAtomic<Stamp>*>(header + 1);
-    std::uninitialized_value_construct_n(stamps, static_cast<std::size_t>(length));
-    auto* samples = reinterpret_cast<SharedSample*>(stamps + Chunk::kSize);
-    std::uninitialized_value_construct_n(samples, static_cast<std::size_t>(length));
+    std::uninitialized_value_construct_n(reinterpret_cast<RelaxedAtomic<Stamp>*>(header + 1), length);
+    auto* samples = static_cast<std::byte*>(memory) + samples_start();
+    std::uninitialized_value_construct_n(reinterpret_cast<SharedSample*>(samples), length);
     return header;
   }
+
+ private:
+  static constexpr bool overlap(std::size_t length, std::size_t distance) {
+    const std::size_t head = sizeof(ChunkHeader) + length * sizeof(Stamp), end = bytes(length);
+    if (distance < head || distance < length * sizeof(SharedSample)) return true;
+    for (std::size_t start = distance; start < end; start += distance) {
+      if (start + head > samples_start()) return true;
+    }
+    return false;
+  }
 };
-static_assert(ChunkHeader::bytes(ChunkLength::full) == sizeof(ChunkHeader) + sizeof(Chunk));
+static_assert(ChunkHeader::bytes(Chunk::kSize) == sizeof(ChunkHeader) + sizeof(Chunk));
+static_assert(ChunkHeader::distance(kChunkLengths.front()) < 1024);
 static_assert(std::is_trivially_destructible_v<ChunkHeader> && std::is_trivially_destructible_v<Chunk>);
 
 // All chunks of a shared tree, so that the next writer finds those that no history contains.
@@ -132,7 +146,7 @@ class ChunkPool {
   ChunkPool(Memory& memory, ChunkList& all) : memory_(&memory), all_(&all) {}
 
   // Returns whether take() will return a chunk.
-  bool has_room(ChunkLength length) {
+  bool has_room(std::size_t length) {
     if (!memory_) return true;
     const std::lock_guard lock(mutex_);
     return !supply(length).free.empty() || memory_->has_room(kReserve + ChunkHeader::bytes(length));
@@ -140,7 +154,7 @@ class ChunkPool {
 
   // Returns a chunk with one holder. The caller must announce the change to readers (Revision::Change), which may still
   // be reading the chunk as part of another history. Throws std::bad_alloc if there is no room.
-  Chunk* take(ChunkLength length) {
+  Chunk* take(std::size_t length) {
     const std::lock_guard lock(mutex_);
     auto& free = supply(length).free;
     ChunkHeader* header = free.empty() ? fresh(length) : free.back();
@@ -160,8 +174,7 @@ class ChunkPool {
   template <class Mark>
   void rebuild(Mark&& mark) {
     const std::lock_guard lock(mutex_);
-    short_.free.clear();
-    full_.free.clear();
+    for (Supply& each : supplies_) each.free.clear();
     for (ChunkHeader* chunk = all_->load(); chunk; chunk = chunk->previous.load()) chunk->holders.store(0);
     mark();
     for (ChunkHeader* chunk = all_->load(); chunk; chunk = chunk->previous.load()) {
@@ -183,9 +196,12 @@ class ChunkPool {
   // Chunks leave this much of a limited memory for the names and the directories of new frames.
   static constexpr std::size_t kReserve = 4 << 20;
 
-  Supply& supply(ChunkLength length) { return length == ChunkLength::full ? full_ : short_; }
+  Supply& supply(std::size_t length) {
+    const auto found = std::find(kChunkLengths.begin(), kChunkLengths.end(), length);
+    return supplies_[static_cast<std::size_t>(found - kChunkLengths.begin())];
+  }
 
-  ChunkHeader* fresh(ChunkLength length) {
+  ChunkHeader* fresh(std::size_t length) {
     const std::size_t bytes = ChunkHeader::bytes(length);
     if (memory_) {
       auto* chunk = ChunkHeader::create(memory_->take(bytes, alignof(ChunkHeader)), length);
@@ -194,21 +210,22 @@ class ChunkPool {
       return chunk;
     }
     Supply& chunks = supply(length);
+    const std::size_t distance = ChunkHeader::distance(length), rest = bytes - distance;
     if (chunks.used == chunks.last_size) {
-      const std::size_t many = Arena::kLarge / bytes;
+      const std::size_t many = (Arena::kLarge - rest) / distance;
       const std::size_t size = chunks.count < kFew ? std::max<std::size_t>(3 * chunks.count, 1) : many;
-      chunks.arenas.push_back(std::make_unique<Arena>(size == many ? Arena::kLarge : size * bytes));
+      chunks.arenas.push_back(std::make_unique<Arena>(size == many ? Arena::kLarge : size * distance + rest));
       chunks.last_size = size;
       chunks.used = 0;
     }
     ++chunks.count;
-    return ChunkHeader::create(chunks.arenas.back()->data() + chunks.used++ * bytes, length);
+    return ChunkHeader::create(chunks.arenas.back()->data() + chunks.used++ * distance, length);
   }
 
   Memory* memory_ = nullptr;  // if set, the chunks are in it and in this list
   ChunkList* all_ = nullptr;
   std::mutex mutex_;  // snapshots may be destroyed in any thread
-  Supply short_, full_;
+  std::array<Supply, kChunkLengths.size()> supplies_;
 };
 
 }  // namespace coframe

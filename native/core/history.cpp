@@ -409,11 +409,14 @@ bool History::must_grow() const {
   return !directory || end_ / Chunk::kSize - begin_ / Chunk::kSize > directory->mask;
 }
 
-// The first chunk of a frame is short. Later ones are not: a reader that is too late never sees the short one where it
+// The first chunk of a frame starts short. Later ones do not: a reader that is too late never sees a short one where it
 // expects a full one.
-ChunkLength History::next_length() const { return end_ == 0 ? ChunkLength::shorter : ChunkLength::full; }
+std::size_t History::next_length() const {
+  const auto longer = std::upper_bound(kChunkLengths.begin(), kChunkLengths.end(), end_.load());
+  return longer == kChunkLengths.end() ? Chunk::kSize : *longer;
+}
 
-// Adds a chunk, or replaces a short one by a full one.
+// Adds a chunk, or replaces a short one by a longer one.
 void History::extend(const HistoryContext& context) {
   const Revision::Change change(context.revision);
   if (must_grow()) grow(context.storage);
@@ -427,7 +430,7 @@ void History::extend(const HistoryContext& context) {
   } else {
     entry.store(chunk);
   }
-  room_end_ = end_ / Chunk::kSize * Chunk::kSize + ChunkHeader::of(chunk)->size();
+  room_end_ = end_ / Chunk::kSize * Chunk::kSize + ChunkHeader::of(chunk)->length;
 }
 
 // Copies chunks that are shared with a snapshot before they change.
@@ -437,7 +440,7 @@ void History::own_chunks(ChunkPool& pool, std::uint64_t first, std::uint64_t end
     const ChunkHeader& header = *ChunkHeader::of(shared);
     if (header.holders.load(std::memory_order_acquire) == 1) continue;
     Chunk* own = pool.take(header.length);
-    copy_samples(*shared, *own, header.size());
+    copy_samples(*shared, *own, header.length);
     directory_.known()->chunk(n).store(own);
     pool.release(shared);
   }
@@ -483,7 +486,7 @@ void History::drop_all(const HistoryStorage& storage) {
 std::uint64_t History::room_end() const {
   const std::uint64_t end = end_, filled = end % Chunk::kSize;
   if (kind_ != HistoryKind::dynamic || filled == 0) return end;
-  return end - filled + ChunkHeader::of(chunk_at(end))->size();
+  return end - filled + ChunkHeader::of(chunk_at(end))->length;
 }
 
 void History::grow(const HistoryStorage& storage) {

@@ -316,7 +316,7 @@ class History {
   void append(const HistoryContext& context, Stamp stamp, const Sample& sample);
   void put_at(const HistoryContext& context, std::size_t position, Stamp stamp, const Sample& sample);
   void extend(const HistoryContext& context);
-  ChunkLength next_length() const;
+  std::size_t next_length() const;
   void own_chunks(ChunkPool& pool, std::uint64_t first, std::uint64_t end);
   // Prunes by the newest stamp before the last insertion; returns the earliest stamp that is kept.
   Stamp prune(const HistoryContext& context, Stamp newest) {

@@ -50,7 +50,7 @@ struct Header {
 
 // Another value for every version whose processes cannot read each other's memory.
 std::uint64_t layout() {
-  constexpr std::uint64_t kVersion = 2;
+  constexpr std::uint64_t kVersion = 3;
   std::uint64_t sum = kVersion;
   for (const std::uint64_t part : {sizeof(Header), sizeof(TreeData), sizeof(Frame), sizeof(History), sizeof(Chunk),
                                    sizeof(ChunkHeader), std::size_t{NameTable::hash_of("base_link")}}) {
