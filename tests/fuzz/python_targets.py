@@ -433,8 +433,8 @@ def viewer_messages() -> Callable[[bytes], object]:
         for line in lines:
             client.receive(line)
             client.update(asyncio.get_running_loop().time())
-            if client._answering is not None:
-                await client._answering
+            if client._answer_task is not None:
+                await client._answer_task
         client.disconnected()
 
     def run(data: bytes) -> None:

@@ -101,32 +101,34 @@ class _Extents:
 
     def __init__(self) -> None:
         self._anchor_extents: dict[str, tuple[int, int]] = {}  # values and levels
-        self._open: list[tuple[str | None, int, int]] = [(None, 0, 0)]  # anchor, values and levels of the collections
+        self._open_collections: list[tuple[str | None, int, int]] = [
+            (None, 0, 0)
+        ]  # anchor, values and levels of the collections
 
     def begin(self, anchor: str | None) -> None:
-        self._open.append((anchor, 1, 0))
+        self._open_collections.append((anchor, 1, 0))
         self._check_depth(0)
 
     def end(self) -> None:
-        anchor, values, levels = self._open.pop()
+        anchor, values, levels = self._open_collections.pop()
         self.add(values, levels + 1, anchor)
 
     def add(self, values: int, levels: int, anchor: str | None = None) -> None:
         if anchor is not None:
             self._anchor_extents[anchor] = (values, levels)
-        around, before, deepest = self._open[-1]
-        self._open[-1] = (around, before + values, max(deepest, levels))
+        around, before, deepest = self._open_collections[-1]
+        self._open_collections[-1] = (around, before + values, max(deepest, levels))
         if before + values > MAX_VALUES:
             raise ValueError(f"the document has more than {MAX_VALUES} values after its aliases (*) are expanded")
         self._check_depth(levels)
 
     def alias(self, anchor: str) -> None:
-        if any(anchor == around for around, _, _ in self._open):
+        if any(anchor == around for around, _, _ in self._open_collections):
             raise ValueError("an alias (*) refers to a node that contains it")
         self.add(*self._anchor_extents.get(anchor, (1, 1)))
 
     def _check_depth(self, levels: int) -> None:
-        if len(self._open) + levels > MAX_DEPTH + 1:
+        if len(self._open_collections) + levels > MAX_DEPTH + 1:
             raise ValueError(_DEPTH_ERROR)
 
 

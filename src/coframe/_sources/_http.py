@@ -290,7 +290,7 @@ class HttpRanges:
         if self._process != os.getpid():  # A child process must not use the connection of its parent.
             self._connection, self._process = None, os.getpid()
         url = self._url
-        proxy = _proxy(url)
+        proxy = _find_proxy(url)
         if user := _authorization(url):
             headers["Authorization"] = user
         target = quote(f"{url.path or '/'}{'?' if url.query else ''}{url.query}", safe=_UNQUOTED_CHARACTERS)
@@ -344,8 +344,8 @@ class _Deadline:
         self._socket = sock
         self._start_response = time.monotonic()
         self._received_bytes = 0
-        self._endless = size is None
-        self._timer = threading.Timer(MAX_WAIT + (size or 0) / MIN_SPEED, self._pass)
+        self._has_unknown_size = size is None
+        self._timer = threading.Timer(MAX_WAIT + (size or 0) / MIN_SPEED, self._mark_passed)
         self._timer.daemon = True
         self._timer.start()
 
@@ -355,7 +355,7 @@ class _Deadline:
         if time.monotonic() - self._start_response > MAX_WAIT + self._received_bytes / MIN_SPEED:
             self.has_passed = True
             raise TimeoutError
-        if self._endless:
+        if self._has_unknown_size:
             self._timer.cancel()
 
     def __enter__(self) -> Self:
@@ -367,7 +367,7 @@ class _Deadline:
         if self.has_passed and isinstance(error, _NETWORK_ERRORS):
             raise TimeoutError from error
 
-    def _pass(self) -> None:
+    def _mark_passed(self) -> None:
         self.has_passed = True
         if self._socket is not None:
             with suppress(OSError):  # It has been closed in the meantime.
@@ -388,7 +388,7 @@ def _connect(url: SplitResult, proxy: SplitResult | None) -> http.client.HTTPCon
     return connection
 
 
-def _proxy(url: SplitResult) -> SplitResult | None:
+def _find_proxy(url: SplitResult) -> SplitResult | None:
     """Return the proxy that the environment prescribes for a URL, or None if there is none."""
     host = url.netloc.rpartition("@")[2]
     found = urllib.request.getproxies().get(url.scheme)

@@ -67,7 +67,7 @@ class BlockCache:
         self._lock = threading.Lock()
         self._blocks = _Blocks()
         self._last_end = -1  # number of the block after those of the last request
-        self._ahead = 1  # blocks of the next request in a row
+        self._blocks_ahead = 1  # blocks of the next request in a row
 
     def read(self, offset: int, size: int) -> bytes:
         """Return bytes; fewer at the end of the file."""
@@ -130,10 +130,10 @@ class BlockCache:
     def _prefetch_end(self, begin: int, stop: int) -> int:
         """Return where a request ends: later in a row of reads, and at the end of the file."""
         blocks = -(-self.ranges.size // BLOCK_SIZE)
-        self._ahead = min(2 * self._ahead, _MAX_BLOCKS) if begin == self._last_end else 1
+        self._blocks_ahead = min(2 * self._blocks_ahead, _MAX_BLOCKS) if begin == self._last_end else 1
         if self.ranges.size - begin * BLOCK_SIZE <= _TAIL_SIZE:
             return blocks
-        return min(max(stop, begin + self._ahead), begin + _MAX_BLOCKS, blocks)
+        return min(max(stop, begin + self._blocks_ahead), begin + _MAX_BLOCKS, blocks)
 
 
 class _Blocks:
@@ -143,7 +143,7 @@ class _Blocks:
         self._places: OrderedDict[int, tuple[int, int]] = OrderedDict()  # place in the file, size
         self._file = cast("IO[bytes]", tempfile.SpooledTemporaryFile(MAX_IN_MEMORY))  # noqa: SIM115 - closed below
         weakref.finalize(self, self._file.close)
-        self._most = max(
+        self._max_blocks = max(
             min(MAX_CACHED, shutil.disk_usage(tempfile.gettempdir()).free // 2) // BLOCK_SIZE, 2 * _MAX_BLOCKS
         )
 
@@ -164,7 +164,7 @@ class _Blocks:
         """Keep a block."""
         if number in self._places:
             place = self._places.pop(number)[0]
-        elif len(self._places) >= self._most:
+        elif len(self._places) >= self._max_blocks:
             place = self._places.popitem(last=False)[1][0]
         else:
             place = len(self._places)

@@ -278,21 +278,21 @@ class _Npz:
     def __init__(self, stream: BinaryIO, _coordinate_type: str = "<f8") -> None:
         self._stream = stream
         self._rows = tempfile.TemporaryFile()  # noqa: SIM115 - closed by close()
-        self._npy = _Npy(self._rows)
+        self._npy_file = _Npy(self._rows)
 
     def add(self, cloud: Cloud) -> None:
         """Add points with the same fields."""
-        self._npy.add(cloud)
+        self._npy_file.add(cloud)
 
     def finish(self) -> None:
         """Write the arrays."""
-        self._npy.finish()
-        dtype, count = self._npy.dtype, self._npy.count
+        self._npy_file.finish()
+        dtype, count = self._npy_file.dtype, self._npy_file.count
         if dtype is None:
             return
         points: Any = np.empty(0, dtype)
         if count:
-            points = np.memmap(self._rows, dtype, "r", len(self._npy.header(dtype, count)), (count,))
+            points = np.memmap(self._rows, dtype, "r", len(self._npy_file.header(dtype, count)), (count,))
         np.savez(self._stream, **{name: points[name] for name in dtype.names or ()})
         del points  # Closes the memory map.
 

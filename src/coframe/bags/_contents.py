@@ -174,7 +174,7 @@ class _ReadState:
         read_buffers = partial(self._buffers, waiting)
         if waiting is None:
             buffers = read_buffers()
-            read_buffers = partial(_same, buffers)
+            read_buffers = partial(_keep_buffers, buffers)
         self._check_tf_topics()
         return Contents(
             path=self._path,
@@ -354,7 +354,7 @@ def _again(waiting: ChunkReader) -> Iterator[tuple[Channel, Slices]]:
             yield batch.channel, batch.messages
 
 
-def _same(buffers: Buffers) -> Buffers:
+def _keep_buffers(buffers: Buffers) -> Buffers:
     return buffers
 
 

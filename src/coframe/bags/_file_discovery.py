@@ -242,12 +242,12 @@ class _PackedFile:
     """A compressed file that ends early if it unpacks to fewer bytes than it has (empty blocks can fill a file)."""
 
     def __init__(self, packed: BinaryIO, whole: BinaryIO) -> None:
-        self._packed = packed
+        self._packed_file = packed
         self._unpacked_file = whole
 
     @property
     def is_implausible(self) -> bool:
-        return self._packed.tell() > self._unpacked_file.tell() + _MAX_EXPANSION
+        return self._packed_file.tell() > self._unpacked_file.tell() + _MAX_EXPANSION
 
     def read(self, size: int) -> bytes:
-        return b"" if self.is_implausible else self._packed.read(size)
+        return b"" if self.is_implausible else self._packed_file.read(size)

@@ -247,7 +247,7 @@ class _TableRun:
         omits = self._query.on_gap == "omit"
         query = replace(self._query, on_gap="nan") if omits else self._query
         for table in self._parts(query):
-            self._note(table)
+            self._add_notes(table)
             complete = np.logical_and.reduce([each.valid for each in table.columns])
             rows = table.taken(complete) if omits else table
             self._missing_count += len(table) - len(rows)
@@ -260,7 +260,7 @@ class _TableRun:
         else:
             yield from query.batches(self._recording, report=self._sentences.append)
 
-    def _note(self, table: Table) -> None:
+    def _add_notes(self, table: Table) -> None:
         for each in table.columns:
             reason = "no message within the limits" if each.gap is None else "no samples around it within the limits"
             new = omissions_of(each.name, reason, ~each.valid, table.stamps)

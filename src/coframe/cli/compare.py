@@ -210,7 +210,7 @@ def _warn_of_constant_differences(name: str, result: Comparison) -> None:
         before, after = shift.translation_rmse
         warn(
             f"{about}a time offset of {duration(shift.offset)} explains most of the error: with it, the translation "
-            f"error is {_short(after)} m instead of {_short(before)} m (rmse between interpolated poses). "
+            f"error is {_to_str(after)} m instead of {_to_str(before)} m (rmse between interpolated poses). "
             f"To remove it: --t-offset {shift.offset / MILLISECOND:.3f}ms"
         )
     if (offset := result.body_offset) is not None:
@@ -220,9 +220,9 @@ def _warn_of_constant_differences(name: str, result: Comparison) -> None:
         (t_before, t_after), (r_before, r_after) = offset.translation_rmse, offset.rotation_rmse
         warn(
             f"{about}the frames of both trajectories differ by a constant pose of {turned:.4g} deg and "
-            f"{math.hypot(x, y, z):.4g} m: with it, the rotation error is {_short(math.degrees(r_after))} deg instead "
-            f"of {_short(math.degrees(r_before))} deg, and the translation error {_short(t_after)} m instead of "
-            f"{_short(t_before)} m (rmse). To remove it: --body-offset {numbers}"
+            f"{math.hypot(x, y, z):.4g} m: with it, the rotation error is {_to_str(math.degrees(r_after))} deg instead "
+            f"of {_to_str(math.degrees(r_before))} deg, and the translation error {_to_str(t_after)} m instead of "
+            f"{_to_str(t_before)} m (rmse). To remove it: --body-offset {numbers}"
         )
 
 
@@ -273,7 +273,7 @@ def _to_degrees(errors: PoseErrors) -> Statistics:
     return statistics._replace(**{**values, "sse": math.degrees(values["sse"])})
 
 
-def _short(number: float) -> str:
+def _to_str(number: float) -> str:
     return f"{round(number, 6) + 0.0:.4g}"
 
 

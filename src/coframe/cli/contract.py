@@ -179,14 +179,14 @@ def _verdicts(
 ) -> Iterator[Verdict]:
     for bag in bags:
         if isinstance(bag, Path) and str(bag) == _LIVE and not bag.exists():
-            yield _live(required, choice, duration, domain)
+            yield _check_live(required, choice, duration, domain)
         else:
             with reading_progress() as progress:
                 verdict = check_recording(required, bag, choice, progress=progress)
             yield verdict
 
 
-def _live(required: Contract, choice: TransformChoice, duration: PositiveDuration, domain: int | None) -> Verdict:
+def _check_live(required: Contract, choice: TransformChoice, duration: PositiveDuration, domain: int | None) -> Verdict:
     from coframe.connection.listener_config import ListenerConfig  # noqa: PLC0415 - recordings need no middleware
 
     if Console(stderr=True).is_terminal:

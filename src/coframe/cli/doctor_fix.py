@@ -65,7 +65,7 @@ def fix_recording(
         fail(f"{bag} cannot be repaired: it is not on this machine", f"Copy it first: coframe bag convert {bag} FOLDER")
     plan = plan_repair(reports.values())
     with ExitStack() as closing:
-        source, damage = _readable(bag, plan.recipe, closing)
+        source, damage = _open_readable(bag, plan.recipe, closing)
         if not len(plan.recipe) and not damage:
             is_healthy = all(report.healthy for report in reports.values())
             print("nothing to repair" if is_healthy else "no finding has one safe repair; nothing was written")
@@ -87,7 +87,7 @@ def fix_recording(
     raise Exit(0 if all(report.healthy for report in found.values()) else 1)
 
 
-def _readable(bag: Path, recipe: Recipe, closing: ExitStack) -> tuple[Path, list[str]]:
+def _open_readable(bag: Path, recipe: Recipe, closing: ExitStack) -> tuple[Path, list[str]]:
     """Return the recording, or a copy of the readable part of a damaged one, and lists of damage and repairs."""
     try:
         with reading_progress() as progress:

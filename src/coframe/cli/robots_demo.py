@@ -164,7 +164,7 @@ class _View:
         self._ros = ros
         self._relay = relay
         self._nodes = nodes
-        self._shown = shown
+        self._shown_robots = shown
 
     def rows(self) -> list[_Row]:
         """Return a row for each robot."""
@@ -188,7 +188,7 @@ class _View:
 
     def table(self) -> Table:
         """Return the table with one row for each robot."""
-        title = f"{count(len(self._names), 'robot')}, poses relative to {self._shown('map')} (meters, degrees)"
+        title = f"{count(len(self._names), 'robot')}, poses relative to {self._shown_robots('map')} (meters, degrees)"
         table = Table(title=title, title_justify="left", box=None, padding=(0, 2, 0, 0), pad_edge=False)
         for column in ("robot", "state", "frames", "rate Hz", "age ms", "clock ms", "x", "y", "yaw"):
             table.add_column(column, justify="left" if column in {"robot", "state"} else "right", no_wrap=True)
@@ -212,11 +212,11 @@ class _View:
         return table
 
     def _frame(self, robot: str, frame: str) -> str:
-        return self._shown(f"{robot}/{frame}")
+        return self._shown_robots(f"{robot}/{frame}")
 
     def _pose(self, robot: str) -> tuple[str, str, str]:
         try:
-            pose = self._ros.buffer.lookup(self._shown("map"), self._frame(robot, "base_link"))
+            pose = self._ros.buffer.lookup(self._shown_robots("map"), self._frame(robot, "base_link"))
         except TransformException:
             return "-", "-", "-"
         x, y, _ = pose.translation.tolist()

@@ -136,7 +136,7 @@ class NodeControl:
         self.act("topic", topic, kind, values)
 
     def _publish(self, topic: str, message_type: Any, values: Mapping[str, Any]) -> tuple[str, list[ControlField]]:
-        message = self._filled(message_type(), values)
+        message = self._fill_message(message_type(), values)
         key = (topic, message_type.__name__)
         with self._lock:
             publisher = self._publishers.get(key)
@@ -152,7 +152,7 @@ class NodeControl:
         return f"Published on {topic}: {count} {'subscription' if count == 1 else 'subscriptions'}", []
 
     def _call(self, service: str, service_type: Any, values: Mapping[str, Any]) -> tuple[str, list[ControlField]]:
-        request = self._filled(service_type.Request(), values)
+        request = self._fill_message(service_type.Request(), values)
         response = self._response(service, service_type, request)
         return f"{service} has responded", list(_fields(response))
 
@@ -166,7 +166,7 @@ class NodeControl:
             self._node.destroy_client(client)
 
     def _send_goal(self, action: str, action_type: Any, values: Mapping[str, Any]) -> tuple[str, list[ControlField]]:
-        goal = self._filled(action_type.Goal(), values)
+        goal = self._fill_message(action_type.Goal(), values)
         client = ActionClient(self._node, action_type, action)
         try:
             if not client.wait_for_server(_SERVER_TIMEOUT):
@@ -199,7 +199,7 @@ class NodeControl:
                 raise ControlError(f"{node} has rejected {name}: {result.reason or 'without a reason'}")
         return f"{node}: set {', '.join(values)}"
 
-    def _filled(self, message: Any, values: Mapping[str, Any]) -> Any:
+    def _fill_message(self, message: Any, values: Mapping[str, Any]) -> Any:
         stamps = set_message_fields(message, dict(values), expand_header_auto=True, expand_time_now=True) or []
         now = self._node.get_clock().now().to_msg()
         for setter in stamps:
@@ -245,16 +245,16 @@ def _fields(message: Any, prefix: str = "") -> Iterator[ControlField]:
 
 
 def _json(value: Any) -> str:
-    return json.dumps(_plain(value))
+    return json.dumps(_to_builtin(value))
 
 
-def _plain(value: Any) -> Any:
+def _to_builtin(value: Any) -> Any:
     if isinstance(value, np.ndarray | array.array):
         return value.tolist()
     if isinstance(value, bytes | bytearray):
         return list(value)
     if isinstance(value, list | tuple):
-        return [_plain(one) for one in value]
+        return [_to_builtin(one) for one in value]
     if hasattr(value, "get_fields_and_field_types"):
-        return {name: _plain(getattr(value, name)) for name in value.get_fields_and_field_types()}
+        return {name: _to_builtin(getattr(value, name)) for name in value.get_fields_and_field_types()}
     return value

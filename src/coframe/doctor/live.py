@@ -159,7 +159,7 @@ class LiveObserver:
         self._rename: Callable[[str], str] = config.renaming or str
         self.cache = config.cache
         self.window = window
-        self._also = frozenset(also)
+        self._more_topics = frozenset(also)
         self.start = time.time_ns()
         self._started_at = time.monotonic_ns()
         self._participant = Participant.get(config.domain, config.wire)
@@ -365,7 +365,7 @@ class LiveObserver:
             subscription = self._subscribe(name, ros_type, _LATCHED, _WHOLE_MESSAGE)
         elif ros_type in _DECODED_TYPES:
             subscription = self._subscribe(name, ros_type, _ANY_PUBLISHER, _WHOLE_MESSAGE)
-        elif name in self._also or (ros_type not in _LARGE_TYPES and begins_with_header(ros_type)):
+        elif name in self._more_topics or (ros_type not in _LARGE_TYPES and begins_with_header(ros_type)):
             subscription = self._subscribe(name, ros_type, _ANY_PUBLISHER, HEADER_BYTES)
         else:
             return

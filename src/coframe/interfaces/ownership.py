@@ -26,7 +26,7 @@ def is_own(path: Path) -> bool:
         owners = {path.lstat().st_uid, path.stat().st_uid}
     except OSError:
         return False
-    strangers = owners - _users()
+    strangers = owners - _trusted_users()
     if strangers:
         report(
             f"{path} is skipped in the search for interface packages because it belongs to {_name(min(strangers))}. "
@@ -35,7 +35,7 @@ def is_own(path: Path) -> bool:
     return not strangers
 
 
-def _users() -> set[int]:
+def _trusted_users() -> set[int]:
     users = {0, os.geteuid()}
     if os.geteuid() == 0:
         with suppress(KeyError, ValueError):

@@ -279,7 +279,7 @@ def _values_check(name: str, type_: AbstractNestedType) -> Check:
             and ({*map(type, value)} <= {python_type} or all(isinstance(item, python_type) for item in value))
             and value_fits(value)
         )
-        assert fits, _refusal(name, type_, python_type.__name__)
+        assert fits, _type_error_text(name, type_, python_type.__name__)
         return value
 
     return check
@@ -315,7 +315,7 @@ def _fit_float32(values: Collection[float]) -> bool:
     return max(map(abs, values), default=0.0) <= _FLOAT32_BOUND or all(map(_fits_float32, values))
 
 
-def _refusal(name: str, type_: AbstractNestedType, type_name: str) -> str:
+def _type_error_text(name: str, type_: AbstractNestedType, type_name: str) -> str:
     value_type = type_.value_type
     rules = ["a set or sequence"]
     if isinstance(type_, Array):

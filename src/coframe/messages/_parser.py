@@ -189,7 +189,7 @@ def _parse_line(content: str, package: str, rules: Rules) -> Field | Constant:
     if match is None:
         raise ValueError("not a field such as 'float64 x' or a constant such as 'uint8 RED=1'")
     name = match["name"]
-    value_type = _nestable(match["type"], package, rules)
+    value_type = _nestable_type(match["type"], package, rules)
     if match["equals"]:
         if match["many"] or isinstance(value_type, NamespacedType):
             raise ValueError("a constant must be a number, a boolean or a string")
@@ -231,7 +231,7 @@ def bounded_size(digits: str) -> int:
     return size
 
 
-def _nestable(name: str, package: str, rules: Rules) -> AbstractNestableType:
+def _nestable_type(name: str, package: str, rules: Rules) -> AbstractNestableType:
     name, _, bound = name.partition("<=")
     if name == "string":
         return BoundedString(bounded_size(bound)) if bound else UnboundedString()

@@ -48,7 +48,7 @@ def as_image(figure: Figure, kind: str) -> bytes:
     with matplotlib.rc_context(_STYLE):
         image = drawing.Figure(figsize=size, layout="constrained")
         axes = image.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
-        image.suptitle(_plain(figure.title), fontsize="medium")
+        image.suptitle(_escape_formula(figure.title), fontsize="medium")
         colors = cycle(COLORS)
         for axis, (title, curves) in zip(axes, panels.items(), strict=True):
             lines = []
@@ -61,16 +61,18 @@ def as_image(figure: Figure, kind: str) -> bytes:
                     linewidth=1.2,
                     marker="o" if is_single else None,
                 )
-            axis.set_ylabel(_plain(title))
+            axis.set_ylabel(_escape_formula(title))
             axis.grid(alpha=0.3)
             # matplotlib omits labels that begin with an underscore.
-            axis.legend(lines, [f"\N{ZERO WIDTH SPACE}{_plain(curve.label)}" for curve in curves], fontsize="small")
-        axes[-1].set_xlabel(_plain(figure.x_title))
+            axis.legend(
+                lines, [f"\N{ZERO WIDTH SPACE}{_escape_formula(curve.label)}" for curve in curves], fontsize="small"
+            )
+        axes[-1].set_xlabel(_escape_formula(figure.x_title))
         metadata = {"Date": None} if kind == "svg" else None
         image.savefig(stream, format=kind, dpi=120, metadata=metadata)
     return stream.getvalue()
 
 
-def _plain(text: str) -> str:
+def _escape_formula(text: str) -> str:
     """Return a string that matplotlib does not interpret as a formula, without characters that XML does not allow."""
     return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text).replace("$", r"\$")

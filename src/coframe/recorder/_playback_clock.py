@@ -27,12 +27,12 @@ class PlaybackClock:
     def __init__(self, start: int, rate: float, *, paused: bool) -> None:
         self._changed = threading.Condition()
         self._base_time = start
-        self._since: int | None = None
+        self._start_time: int | None = None
         self._rate = rate
-        self._paused = paused
+        self._is_paused = paused
         self._steps = 0
-        self._stopped = False
-        self._interrupted = False
+        self._is_stopped = False
+        self._is_interrupted = False
 
     @property
     def now(self) -> int:
@@ -48,7 +48,7 @@ class PlaybackClock:
     @property
     def paused(self) -> bool:
         """Whether the clock is paused."""
-        return self._paused
+        return self._is_paused
 
     @property
     def steps(self) -> int:
@@ -58,12 +58,12 @@ class PlaybackClock:
     @property
     def stopped(self) -> bool:
         """Whether `stop` was called."""
-        return self._stopped
+        return self._is_stopped
 
     def jump(self, to: int) -> None:
         """Set the recorded time and start the clock."""
         with self._changed:
-            self._base_time, self._since = to, time.monotonic_ns()
+            self._base_time, self._start_time = to, time.monotonic_ns()
             self._changed.notify_all()
 
     def set_rate(self, rate: float) -> None:
@@ -77,37 +77,37 @@ class PlaybackClock:
         """Pause the clock, or resume it."""
         with self._changed:
             self._restart_from_now()
-            self._paused = paused
+            self._is_paused = paused
             self._steps = 0
             self._changed.notify_all()
 
     def step(self, number: int = 1) -> None:
         """Let some calls of `wait_until` return while the clock is paused."""
         with self._changed:
-            if self._paused:
+            if self._is_paused:
                 self._steps += number
                 self._changed.notify_all()
 
     def interrupt(self) -> None:
         """Let the current or the next call of `wait_until` return False, once."""
         with self._changed:
-            self._interrupted = True
+            self._is_interrupted = True
             self._changed.notify_all()
 
     def stop(self) -> None:
         """Stop the clock. All current and future waits return immediately."""
         with self._changed:
-            self._stopped = True
+            self._is_stopped = True
             self._changed.notify_all()
 
     def wait_until(self, moment: int) -> bool:
         """Wait for a recorded time or a step. Return False if the clock is stopped or interrupted."""
         with self._changed:
-            while not self._stopped:
-                if self._interrupted:
-                    self._interrupted = False
+            while not self._is_stopped:
+                if self._is_interrupted:
+                    self._is_interrupted = False
                     return False
-                if self._paused:
+                if self._is_paused:
                     if self._steps:
                         self._steps -= 1
                         self._base_time = max(self._base_time, moment)
@@ -123,13 +123,13 @@ class PlaybackClock:
     def sleep(self, seconds: float) -> bool:
         """Wait in real time, even if paused. Return False if the clock is stopped."""
         with self._changed:
-            return not self._changed.wait_for(lambda: self._stopped, min(seconds, threading.TIMEOUT_MAX))
+            return not self._changed.wait_for(lambda: self._is_stopped, min(seconds, threading.TIMEOUT_MAX))
 
     def _now(self) -> int:
-        if self._paused or self._since is None:
+        if self._is_paused or self._start_time is None:
             return self._base_time
-        return self._base_time + int((time.monotonic_ns() - self._since) * self._rate)
+        return self._base_time + int((time.monotonic_ns() - self._start_time) * self._rate)
 
     def _restart_from_now(self) -> None:
         self._base_time = self._now()
-        self._since = None if self._since is None else time.monotonic_ns()
+        self._start_time = None if self._start_time is None else time.monotonic_ns()

@@ -73,7 +73,7 @@ class Player:
         self._start = start
         self._end = recording.received_end if end is None else min(end, recording.received_end)
         self._seek_target: int | None = None  # where `seek` continues
-        self._started = threading.Event()
+        self._start_event = threading.Event()
         self._clock_rate = clock
         self._delay = delay
         self._error: Exception | None = None
@@ -131,7 +131,7 @@ class Player:
 
     def wait_for_start(self, timeout: DurationLike | None = None) -> bool:
         """Wait until the first message is published, or False after the timeout."""
-        return self._started.wait(duration_seconds(timeout))
+        return self._start_event.wait(duration_seconds(timeout))
 
     def pause(self) -> None:
         """Pause the replay."""
@@ -191,7 +191,7 @@ class Player:
         # Discovery takes time: messages published before subscriptions match would be lost.
         if not self.clock.sleep(self._delay):
             return
-        self._started.set()
+        self._start_event.set()
         start = self._start
         while True:
             self.clock.jump(start)

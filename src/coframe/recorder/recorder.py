@@ -83,9 +83,9 @@ class Recorder:
         self._frames = frames
         self._queue = MessageQueue(backlog)
         self._error: Exception | None = None
-        self._ended = threading.Event()
+        self._end_event = threading.Event()
         self._stopping = False
-        self._paused = False
+        self._is_paused = False
         self._closing = threading.Lock()
         self._qos: dict[tuple[str, str], tuple[OfferedQos, ...]] = {}
         self._participant = Participant.get(domain, wire)
@@ -123,15 +123,15 @@ class Recorder:
     @property
     def paused(self) -> bool:
         """Whether messages that arrive are not recorded."""
-        return self._paused
+        return self._is_paused
 
     def pause(self) -> None:
         """Record no messages until `resume` is called; subscriptions are kept."""
-        self._paused = True
+        self._is_paused = True
 
     def resume(self) -> None:
         """Record messages again."""
-        self._paused = False
+        self._is_paused = False
 
     def wait(self, timeout: DurationLike | None = None) -> bool:
         """Wait until the recording is closed or fails.
@@ -145,7 +145,7 @@ class Recorder:
         Raises:
             RecordingError: Writing failed, for example because the disk is full.
         """
-        if not self._ended.wait(duration_seconds(timeout)):
+        if not self._end_event.wait(duration_seconds(timeout)):
             return False
         if self._error is not None:
             raise self._error
@@ -172,7 +172,7 @@ class Recorder:
                 self.writer.close()
             except RecordingError as error:
                 self._error = self._error or error
-            self._ended.set()
+            self._end_event.set()
         if self._error is not None:
             raise self._error
 
@@ -188,11 +188,11 @@ class Recorder:
             run()
         except Exception as error:  # noqa: BLE001 - `wait` and `close` raise it in the thread of the caller
             self._error = self._error or error
-            self._ended.set()
+            self._end_event.set()
 
     def _receive(self) -> None:
         try:
-            while not (self._stopping or self._ended.is_set()):
+            while not (self._stopping or self._end_event.is_set()):
                 self._receive_once()
                 self._data.wait(_RECEIVE_PERIOD)
             self._receive_once()
@@ -206,7 +206,7 @@ class Recorder:
                 self._qos[topic, ros_type] = tuple(dict.fromkeys(profiles))
                 self._on_topic(topic, ros_type)
         for message in self._subscriptions.take():
-            if not self._paused:
+            if not self._is_paused:
                 self._queue.add_message(message)
 
     def _write(self) -> None:

@@ -111,12 +111,12 @@ class Element:
         words = self.text(name).split()
         if len(words) != count:
             expected = "one number" if count == 1 else f"{count} numbers separated by spaces"
-            self.fail(f'<{self.tag} {name}="{_short(" ".join(words))}">: expected {expected}')
+            self.fail(f'<{self.tag} {name}="{_shorten(" ".join(words))}">: expected {expected}')
         return tuple(self._number(name, word) for word in words)
 
     def _number(self, name: str, word: str) -> float:
         if not _NUMBER.fullmatch(word) or not math.isfinite(float(word)):
-            self.fail(f'<{self.tag} {name}="...">: {_short(word)!r} is not a finite number')
+            self.fail(f'<{self.tag} {name}="...">: {_shorten(word)!r} is not a finite number')
         return float(word)
 
     def parse_or_warn(self, parse: Callable[[Element], T], ignored: str) -> T | None:
@@ -270,7 +270,7 @@ def _parse(text: str, warnings: list[str]) -> Element:
     return builder.root
 
 
-def _short(text: str) -> str:
+def _shorten(text: str) -> str:
     return text if len(text) <= 40 else f"{text[:40]}..."
 
 

@@ -50,7 +50,7 @@ def decode_image(image: Any) -> Pixels:
     if encoding.colors.startswith("NV"):
         return _from_nv(samples, image.height, encoding.colors if name != _NV12 else "NV12")
     if encoding.channels == 1:
-        return _measured(samples)
+        return _to_brightness(samples)
     order = [0, 1, 2] if encoding.colors.startswith("RGB") else [2, 1, 0]
     return _eight_bits(samples[:, :, order])
 
@@ -88,7 +88,7 @@ def _samples(image: Any, encoding: encodings.Encoding, *, nv: bool) -> Pixels:
     return samples
 
 
-def _measured(samples: Pixels) -> Pixels:
+def _to_brightness(samples: Pixels) -> Pixels:
     """Return values of one channel: uint8 is brightness; all others keep their unit."""
     if samples.dtype.kind == "u" and samples.dtype.itemsize <= 2:
         return samples.astype(samples.dtype.newbyteorder("="))

@@ -79,7 +79,7 @@ def field_of(points: Any, name: str | int) -> NDArray[Any]:
     if name not in points.dtype.names:
         raise _missing_field_error(name, list(points.dtype.names))
     field: NDArray[Any] = points[name]
-    return _single(field, name, field.size // max(points.size, 1))
+    return _require_single(field, name, field.size // max(points.size, 1))
 
 
 def coordinates(points: Any, vectors: Vectors, normals: Sequence[Sequence[str]] = NORMALS) -> list[Triple]:
@@ -251,7 +251,7 @@ def _message_field(cloud: Any, name: str) -> NDArray[Any]:
     memory = _memory(cloud.data)
     _check_layout(name, field.offset, dtype.itemsize, rows, columns, step, row_step, len(memory))
     points: NDArray[Any] = np.ndarray((rows, columns), dtype, memory, field.offset, strides=(row_step, step))
-    return _single(points, name, field.count)
+    return _require_single(points, name, field.count)
 
 
 def _check_layout(
@@ -271,7 +271,7 @@ def _check_layout(
         )
 
 
-def _single(field: NDArray[Any], name: object, count: int) -> NDArray[Any]:
+def _require_single(field: NDArray[Any], name: object, count: int) -> NDArray[Any]:
     if count > 1:
         raise ValueError(f"the field {name!r} must have one number per point, not {count}")
     return field

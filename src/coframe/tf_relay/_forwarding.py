@@ -106,7 +106,7 @@ class Relay:
     ) -> None:
         self._robots = robots
         self._shared_frames = shared_frames(keep)
-        self._split = split
+        self._splits = split
         self._period = 0 if rate is None else round(SECOND / rate)
         self._max_error = max_error
         self._warn = warn or _logger.warning
@@ -141,7 +141,7 @@ class Relay:
         for input_ in self._inputs:
             for output, source in input_.routes:
                 prefix = output.robots[source].prefix
-                change = f"{'removing' if self._split else 'adding'} prefix {prefix}" if prefix else "frames unchanged"
+                change = f"{'removing' if self._splits else 'adding'} prefix {prefix}" if prefix else "frames unchanged"
                 lines.append(f"{input_.topic} -> {output.topic}, {change}")
         return lines
 
@@ -149,7 +149,7 @@ class Relay:
     def robots(self) -> list[RelayedRobot]:
         """The state of each robot."""
         robots = []
-        for name, received in self._received().items():
+        for name, received in self._publishers_by_robot().items():
             publishers = [publisher for publisher, _ in received]
             not_relayed = NotRelayed(*map(sum, zip(*(counts for _, counts in received), strict=True)))
             robots.append(RelayedRobot(name, publisher_state(publishers), publishers, not_relayed))
@@ -170,7 +170,7 @@ class Relay:
                         child=row.child,
                         static=input_.static,
                         robot=robot.name,
-                        source=input_.topic if self._split else topic_of_kind(robot.topic, static=input_.static),
+                        source=input_.topic if self._splits else topic_of_kind(robot.topic, static=input_.static),
                         node=self.participant.writer_node(row.writer) or "an unnamed node",
                         target=output.topic,
                         forwarded=row.forwarded,
@@ -205,7 +205,7 @@ class Relay:
 
     def _connect(self, common: str, static: bool) -> list[_Input]:
         """Create the inputs of static or dynamic transforms, and their outputs."""
-        if self._split:
+        if self._splits:
             input_ = self._input(common, static)
             for robot in self._robots:
                 output = self._output(topic_of_kind(robot.topic, static=static), static)
@@ -235,7 +235,7 @@ class Relay:
     def _route(self, output: _Output, robot: RobotTopics) -> _Route:
         names = renaming(robot.prefix, self._shared_frames) or _core.Renaming("", self._shared_frames)
         output.robots.append(robot)
-        return _Route(output, output.native.add_source(names, self._split))
+        return _Route(output, output.native.add_source(names, self._splits))
 
     def _run(self) -> None:
         checked = 0
@@ -299,7 +299,7 @@ class Relay:
                 )
         return self._relay_writers[writer]
 
-    def _received(self) -> dict[str, list[tuple[TfPublisher, NotRelayed]]]:
+    def _publishers_by_robot(self) -> dict[str, list[tuple[TfPublisher, NotRelayed]]]:
         """Return the publishers of each robot, with the number of transforms that could not be relayed."""
         received: dict[str, list[tuple[TfPublisher, NotRelayed]]] = {robot.name: [] for robot in self._robots}
         for input_ in self._inputs:
@@ -324,7 +324,7 @@ class Relay:
         """Warn about each problem once, and about state changes of robots."""
         self._forget_departed_writers()
         edges = self.edges()
-        for robot, received in self._received().items():
+        for robot, received in self._publishers_by_robot().items():
             for publisher, not_relayed in received:
                 children = [edge.child for edge in edges if edge.robot == robot and edge.node == publisher.node]
                 if problem := publisher.clock_problem(children):

@@ -260,7 +260,7 @@ def compare_trajectories(
         estimate,
         alignment,
         _absolute_errors(reference, estimate),
-        _relative(reference, estimate, chosen),
+        _relative_errors(reference, estimate, chosen),
         chosen,
         found,
         time_shift,
@@ -425,7 +425,7 @@ def _absolute_errors(reference: Transform, estimate: Transform) -> PoseErrors:
     return PoseErrors(distance, _rotation_angles(turn), np.arange(len(distance)))
 
 
-def _relative(reference: Transform, estimate: Transform, delta: Delta) -> PoseErrors:
+def _relative_errors(reference: Transform, estimate: Transform, delta: Delta) -> PoseErrors:
     ends = _motion_ends(estimate, reference.stamps if estimate.stamps is None else estimate.stamps, delta)
     if len(ends) < 2:
         raise TrajectoryError(

@@ -308,7 +308,7 @@ def pose_rows(transform: TransformValues, shape: tuple[int, ...]) -> tuple[Array
     t, q = transform.translation, transform.quaternion
     if transform.shape not in {(), shape}:
         t, q = np.broadcast_to(t, (*shape, 3)), np.broadcast_to(q, (*shape, 4))
-    return _contiguous(t.reshape(-1, 3)), _contiguous(q.reshape(-1, 4))
+    return _make_contiguous(t.reshape(-1, 3)), _make_contiguous(q.reshape(-1, 4))
 
 
 def any_stamp(transform: TransformValues) -> Any:
@@ -384,7 +384,7 @@ def arrow(transform: _core.Transform) -> str:
     return f"{transform.target or '?'} <- {transform.source or '?'}"
 
 
-def _contiguous(rows: Array) -> Array:
+def _make_contiguous(rows: Array) -> Array:
     return rows if rows.strides[-1] == rows.itemsize else np.ascontiguousarray(rows)
 
 

@@ -93,9 +93,9 @@ class ViewerState:
         self.can_open = can_open
         self.control: GraphControl | None = None
         self.uploads = Uploads()
-        self._recent: dict[int, ViewerSource] = {}
+        self._recent_sources: dict[int, ViewerSource] = {}
         self._recent_ids = itertools.count(1)
-        self._opened: set[ViewerSource] = set()
+        self._opened_sources: set[ViewerSource] = set()
         self.nodes, self.widgets = NodeStore(self.callbacks), WidgetStore(self.callbacks)
         self.rviz = rviz.with_fixed_frame(fixed) if rviz is not None and fixed else rviz
         self._joint_states = joint_states
@@ -106,7 +106,7 @@ class ViewerState:
         self.origin = time.time_ns()
         self.executor = ThreadPoolExecutor(2, "coframe-viewer-work")
         self._tools: ToolPublisher | None = None
-        self._open: dict[str, _SharedMessages] = {}  # Of the source, by topic.
+        self._open_topics: dict[str, _SharedMessages] = {}  # Of the source, by topic.
         self._users: dict[int, _SharedMessages] = {}  # Also of previous sources, by the identity of their messages.
         self._prepared_replays: dict[str, ReplaySettings] = {}
         self._structure_due = self._topics_due = 0.0
@@ -119,7 +119,7 @@ class ViewerState:
         self.panels.close()
         self.panels = Panels(source)
         self.source = source
-        self._open = {}  # Clients release the messages of the previous source when they start from scratch.
+        self._open_topics = {}  # Clients release the messages of the previous source when they start from scratch.
         self.descriptions.restart()
         self.scene = _scene_of(source)
         self.origin = time.time_ns()
@@ -129,18 +129,18 @@ class ViewerState:
 
     def _remember(self, source: ViewerSource) -> None:
         """Keep a source, so that it can be shown again; close the oldest one that the page has opened."""
-        if not self.can_open or source in self._recent.values():
+        if not self.can_open or source in self._recent_sources.values():
             return
-        self._recent[next(self._recent_ids)] = source
-        for number, known in list(self._recent.items())[: max(0, len(self._recent) - MAX_RECENT)]:
-            del self._recent[number]
-            if known in self._opened:
-                self._opened.discard(known)
+        self._recent_sources[next(self._recent_ids)] = source
+        for number, known in list(self._recent_sources.items())[: max(0, len(self._recent_sources) - MAX_RECENT)]:
+            del self._recent_sources[number]
+            if known in self._opened_sources:
+                self._opened_sources.discard(known)
                 known.close()
 
     def show_opened(self, source: ViewerSource) -> None:
         """Show a source that a page has opened. The viewer closes it."""
-        self._opened.add(source)
+        self._opened_sources.add(source)
         self.set_source(source)
 
     def show_recent(self, number: int) -> None:
@@ -149,7 +149,7 @@ class ViewerState:
         Raises:
             ViewerError: It is no longer open.
         """
-        source = self._recent.get(number)
+        source = self._recent_sources.get(number)
         if source is None:
             raise ViewerError("this source is no longer open", hint="Open its file again.")
         if source is not self.source:
@@ -159,7 +159,7 @@ class ViewerState:
         """Return the sources that can be shown again, the newest first."""
         return [
             RecentSource(id=number, name=source.title, is_shown=source is self.source)
-            for number, source in reversed(self._recent.items())
+            for number, source in reversed(self._recent_sources.items())
         ]
 
     def restart(self, reason: str) -> None:
@@ -172,7 +172,7 @@ class ViewerState:
         self.source.restart()
         self.scene.restart()
         self.panels.restart()
-        self._open = {}
+        self._open_topics = {}
         self.restart_reason = reason
         self.restarts += 1
         self.edition += 1
@@ -245,12 +245,12 @@ class ViewerState:
             WireError: The middleware cannot create the subscription.
         """
         topic = self.source.resolve(topic)
-        shared = self._open.get(topic)
+        shared = self._open_topics.get(topic)
         if shared is None:
             messages = self.source.open(topic)
             if messages is None:
                 return None
-            shared = self._open[topic] = self._users[id(messages)] = _SharedMessages(messages)
+            shared = self._open_topics[topic] = self._users[id(messages)] = _SharedMessages(messages)
         shared.users += 1
         return shared.messages
 
@@ -260,7 +260,7 @@ class ViewerState:
         shared.users -= 1
         if shared.users == 0:
             del self._users[id(messages)]
-            self._open = {topic: one for topic, one in self._open.items() if one is not shared}
+            self._open_topics = {topic: one for topic, one in self._open_topics.items() if one is not shared}
             messages.close()
 
     @contextlib.contextmanager
@@ -291,7 +291,7 @@ class ViewerState:
         self.descriptions.close()
         if self.control is not None:
             self.control.close()
-        for source in self._opened:
+        for source in self._opened_sources:
             source.close()
         self.uploads.close()
 

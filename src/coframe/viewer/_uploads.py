@@ -70,7 +70,7 @@ class Upload:
         self.total = sum(file.size for file in files)
         self.received = 0
         self._folder = folder
-        self._left = [file.size for file in files]
+        self._missing_bytes = [file.size for file in files]
         self._number = 0
         self._stream: BinaryIO | None = None
         for path in self.paths:
@@ -94,13 +94,13 @@ class Upload:
         self.received += len(data)
         while data:
             if self._stream is None:
-                while not self._left[self._number]:
+                while not self._missing_bytes[self._number]:
                     self._number += 1
                 self._stream = self.paths[self._number].open("wb")
-            part, data = data[: self._left[self._number]], data[self._left[self._number] :]
+            part, data = data[: self._missing_bytes[self._number]], data[self._missing_bytes[self._number] :]
             self._stream.write(part)
-            self._left[self._number] -= len(part)
-            if not self._left[self._number]:
+            self._missing_bytes[self._number] -= len(part)
+            if not self._missing_bytes[self._number]:
                 self._end_file()
 
     def close(self) -> None:
@@ -218,14 +218,14 @@ def open_files(paths: Sequence[Path], target: Path, *, together: bool) -> Viewer
 
         if len(paths) == 1:
             return RecordedSource(open_bag(paths[0]), own=True)
-        source = RecordedSource(open_bag(_combined(paths, target, together=together)), own=True)
+        source = RecordedSource(open_bag(_combine(paths, target, together=together)), own=True)
     except CoframeError as error:
         raise ViewerError(f"{paths[0].name} cannot be opened: {error}", hint=error.hint) from None
     source.title = " + ".join(path.name for path in paths)
     return source
 
 
-def _combined(paths: Sequence[Path], target: Path, *, together: bool) -> Path:
+def _combine(paths: Sequence[Path], target: Path, *, together: bool) -> Path:
     """Copy recordings into one, and return its folder."""
     from coframe.bags.copying import copy_recordings  # noqa: PLC0415 - see above
     from coframe.bags.recording import open_bag  # noqa: PLC0415

@@ -54,7 +54,7 @@ class DelayedReplies:
     def __init__(self, service: str) -> None:
         self._service = service
         self._changed = threading.Condition()
-        self._waiting: dict[int, deque[_Delayed]] = {}  # by client, oldest first
+        self._waiting_replies: dict[int, deque[_Delayed]] = {}  # by client, oldest first
         self._is_running = False
 
     def send(self, client: int, reaches: Callable[[], bool], send: Callable[[], None]) -> None:
@@ -65,22 +65,22 @@ class DelayedReplies:
             reaches: Returns whether a reply that is sent now reaches the client.
             send: Sends the reply. If it is called at once, its exceptions are those of this method.
         """
-        if (client not in self._waiting and reaches()) or not self._store(client, reaches, send):
+        if (client not in self._waiting_replies and reaches()) or not self._store(client, reaches, send):
             send()
 
     def finish(self) -> None:
         """Wait until no reply waits, which takes at most `MAX_DELAY`."""
         with self._changed:
-            self._changed.wait_for(lambda: not self._waiting, MAX_DELAY + _MAX_PAUSE)
+            self._changed.wait_for(lambda: not self._waiting_replies, MAX_DELAY + _MAX_PAUSE)
 
     def _store(self, client: int, reaches: Callable[[], bool], send: Callable[[], None]) -> bool:
         """Store a reply until its client is discovered. Return False if too many wait."""
         with self._changed:
-            waiting = self._waiting.get(client, deque())
-            if len(waiting) >= MAX_WAITING_REPLIES or len(self._waiting) >= MAX_WAITING_CLIENTS:
+            waiting = self._waiting_replies.get(client, deque())
+            if len(waiting) >= MAX_WAITING_REPLIES or len(self._waiting_replies) >= MAX_WAITING_CLIENTS:
                 return False
             waiting.append(_Delayed(reaches, send, time.monotonic() + MAX_DELAY))
-            self._waiting[client] = waiting
+            self._waiting_replies[client] = waiting
             self._changed.notify_all()
             if not self._is_running:
                 self._is_running = True
@@ -92,10 +92,10 @@ class DelayedReplies:
         while True:
             with self._changed:
                 self._changed.notify_all()
-                if not self._waiting:
+                if not self._waiting_replies:
                     self._is_running = False
                     return
-                first = [(client, replies[0]) for client, replies in self._waiting.items()]
+                first = [(client, replies[0]) for client, replies in self._waiting_replies.items()]
             sent = [self._send_if_due(client, reply) for client, reply in first]
             if any(sent):
                 pause = _MIN_PAUSE
@@ -112,8 +112,8 @@ class DelayedReplies:
         except (CoframeError, _core.EndpointError) as error:  # the service was closed, or a client does not keep up
             _logger.warning("A reply of %s was not sent: %s", self._service, error)
         with self._changed:
-            replies = self._waiting[client]
+            replies = self._waiting_replies[client]
             replies.popleft()
             if not replies:
-                del self._waiting[client]
+                del self._waiting_replies[client]
         return True

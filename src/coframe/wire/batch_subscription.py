@@ -46,18 +46,18 @@ class BatchSubscription(LocalEndpoint):
 
     def __init__(self, native: BackendTap, node: GraphNode, endpoint: Endpoint, qos: QoS) -> None:
         self._reader = native
-        self._missed = 0
+        self._missed_count = 0
         super().__init__(native, node, endpoint, qos)
 
     def take(self) -> MessageBatch:
         """Return the messages that arrived since the last call."""
         data, ends, arrived, sent, writers = self._reader.take()
-        before, self._missed = self._missed, self._reader.missed
+        before, self._missed_count = self._missed_count, self._reader.missed
         return MessageBatch(
             data,
             np.frombuffer(ends, np.uint64),
             np.frombuffer(arrived, np.int64),
             np.frombuffer(sent, np.int64),
             np.frombuffer(writers, np.uint64),
-            self._missed - before,
+            self._missed_count - before,
         )

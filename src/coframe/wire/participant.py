@@ -63,9 +63,9 @@ class Participant(EndpointFactory, GraphQueries):
         self._lock = threading.RLock()
         self._nodes: list[GraphNode] = []
         self._statics: dict[str, SharedStaticPublisher] = {}
-        self._wake = _core.Event()
+        self._wake_event = _core.Event()
         self._end_of_pause = _core.Event()  # set when the participant is closed
-        self._session = selection.join(wire, domain_id, self._wake)
+        self._session = selection.join(wire, domain_id, self._wake_event)
         self._graph = self._session.graph
         self._mismatches = MismatchMonitor(self._graph, self._warn)
         self._rejections = RejectedTransformMonitor(self._graph, self._warn)
@@ -235,7 +235,7 @@ class Participant(EndpointFactory, GraphQueries):
                     _logger.exception("The maintenance of the ROS graph failed. Retrying in 1 s.")
             worked = time.thread_time_ns() - start
             self._end_of_pause.wait(min(_PAUSE_FACTOR * worked, _MAX_PAUSE))
-            self._wake.wait(pause)
+            self._wake_event.wait(pause)
 
     def _warn_of_naming_problems(self, readers: list[TfReader]) -> None:
         for reader in readers:
@@ -264,7 +264,7 @@ class Participant(EndpointFactory, GraphQueries):
         del self._instances[self.wire, self.domain_id]
         self._closing = True
         self._end_of_pause.set()
-        self._wake.set()
+        self._wake_event.set()
         if self._thread is not threading.current_thread():
             self._thread.join()
         self._parameter_services.close()

@@ -83,7 +83,7 @@ class ServicePublisher(RawPublisher):
         self._graph = graph
         self._sends_requests = endpoint.kind == "request"
         self._known: tuple[int, frozenset[int], _Peers] | None = None
-        self._delayed = DelayedReplies(endpoint.name)
+        self._delayed_replies = DelayedReplies(endpoint.name)
         super().__init__(native, node, endpoint, qos)
 
     @property
@@ -134,11 +134,11 @@ class ServicePublisher(RawPublisher):
             WireError: As for `Publisher.write`. A reply that cannot be sent later is reported with a warning.
         """
         message = request_header.join(header, cdr)
-        self._delayed.send(writer, partial(self._reaches, header, writer), partial(self.write, message))
+        self._delayed_replies.send(writer, partial(self._reaches, header, writer), partial(self.write, message))
 
     def leave(self, node: GraphNode) -> None:
         """Remove this endpoint from `node`, after the last replies were sent."""
-        self._delayed.finish()
+        self._delayed_replies.finish()
         super().leave(node)
 
     def report_unreachable(self) -> None:

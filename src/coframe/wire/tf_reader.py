@@ -70,7 +70,7 @@ class TfReader(LocalEndpoint):
         self.static = static
         self._reader = native
         self._node_names: dict[int, str] | None = {} if name_writers else None
-        self._departed: deque[int] = deque()
+        self._departed_writers: deque[int] = deque()
         self._naming = threading.Lock()
         super().__init__(native, node, endpoint, qos)
 
@@ -120,10 +120,10 @@ class TfReader(LocalEndpoint):
             for handle in set(received) - writers.keys():
                 self._reader.writer_left(handle)
             for handle in self._node_names.keys() - writers.keys():
-                self._departed.append(handle)
+                self._departed_writers.append(handle)
                 del self._node_names[handle]
-            while len(self._departed) > _DEPARTED_WRITERS:
-                self._reader.forget_writer(self._departed.popleft())
+            while len(self._departed_writers) > _DEPARTED_WRITERS:
+                self._reader.forget_writer(self._departed_writers.popleft())
             for handle, writer in writers.items():
                 node = graph.owner(writer.guid)
                 if node is not None and self._node_names.get(handle) != node:

@@ -79,7 +79,7 @@ class McapOutput:
         self._threads = min(_MAX_THREADS, max(1, (os.cpu_count() or 2) - 1))
         self._pool = ThreadPoolExecutor(self._threads)
         self._local = threading.local()
-        self._waiting: deque[tuple[Future[bytes] | None, Callable[[bytes], object]]] = deque()
+        self._waiting_chunks: deque[tuple[Future[bytes] | None, Callable[[bytes], object]]] = deque()
 
     def __enter__(self) -> Self:
         return self
@@ -144,7 +144,7 @@ class McapOutput:
             channels: The contents of the records of channels.
             statistics: Returns the content of their record, for the numbers of attachments, metadata and chunks.
         """
-        while self._waiting:
+        while self._waiting_chunks:
             self._finish_next_job()
         self._write(mcap.record(mcap.DATA_END, struct.pack("<I", self._crc if self._has_crc else 0)))
         start = self._end
@@ -169,18 +169,20 @@ class McapOutput:
 
     def _submit_job(self, action: Callable[[bytes], object], packed: Future[bytes] | None = None) -> None:
         """Do something when everything before has been done, with the result of another thread."""
-        if packed is None and not self._waiting:
+        if packed is None and not self._waiting_chunks:
             action(b"")
             return
-        self._waiting.append((packed, action))
-        while self._waiting and (self._is_full() or self._waiting[0][0] is None or self._waiting[0][0].done()):
+        self._waiting_chunks.append((packed, action))
+        while self._waiting_chunks and (
+            self._is_full() or self._waiting_chunks[0][0] is None or self._waiting_chunks[0][0].done()
+        ):
             self._finish_next_job()
 
     def _is_full(self) -> bool:
-        return sum(packed is not None for packed, _ in self._waiting) > self._threads + 1
+        return sum(packed is not None for packed, _ in self._waiting_chunks) > self._threads + 1
 
     def _finish_next_job(self) -> None:
-        packed, action = self._waiting.popleft()
+        packed, action = self._waiting_chunks.popleft()
         action(b"" if packed is None else packed.result())
 
     def _compress(self, data: Data, compression: str) -> bytes:

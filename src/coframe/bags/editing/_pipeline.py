@@ -42,13 +42,13 @@ class Route:
     ) -> None:
         self.topic = topic
         self.steps = steps
-        self._counting = counting
+        self._counting_rules = counting
         self._problem = problem
         self._problems = problems
 
     def count(self, messages: int) -> None:
         """Count messages of the channel for the rules that rename or drop its topic."""
-        for rule in self._counting:
+        for rule in self._counting_rules:
             rule.changes += messages
 
     def edit(self, message: EditedMessage) -> bool:

@@ -118,10 +118,10 @@ def _cells(kind: str, array: NDArray[Any], known: NDArray[np.bool_]) -> list[Any
 def _as_json(value: Any) -> str:
     if isinstance(value, bytes):
         return value.hex()
-    return json.dumps(value.tolist() if isinstance(value, np.ndarray) else value, default=_plain)
+    return json.dumps(value.tolist() if isinstance(value, np.ndarray) else value, default=_to_builtin)
 
 
-def _plain(value: Any) -> Any:
+def _to_builtin(value: Any) -> Any:
     """Return a message as a dictionary, and a sequence as a list."""
     if hasattr(value, "get_fields_and_field_types"):
         return {name: getattr(value, name) for name in value.get_fields_and_field_types()}

@@ -138,7 +138,7 @@ class _Evaluation:
         self._query, self._recording, self._report = query, recording, report
         self._topics: dict[str, TopicReader] = {}
         parsed = [column(each) for each in column_list(query.columns)]
-        self._at = None if stamps is not None else self._at_topic(parsed)
+        self._reference_topic = None if stamps is not None else self._at_topic(parsed)
         if query.covariance:
             load_covariances(recording, [each.parsed for each in parsed if isinstance(each.parsed, PoseSource)])
         self._columns = [self._new_column(each) for each in parsed]
@@ -194,7 +194,11 @@ class _Evaluation:
         if self._query.rate is not None and given is None:
             times = self._times_at_rate(self._query.rate, start, stop)
         else:
-            times = self._topics[self._at].samples if self._at is not None else np.sort(np.ravel(stamps_of(given)))
+            times = (
+                self._topics[self._reference_topic].samples
+                if self._reference_topic is not None
+                else np.sort(np.ravel(stamps_of(given)))
+            )
         inside = np.ones(len(times), dtype=bool)
         inside &= True if start is None else times >= start
         inside &= True if stop is None else times <= stop
@@ -204,7 +208,7 @@ class _Evaluation:
             )
             there = f"The rows without start and stop are from {first} to {last}." if first else ""
             raise RecordingError("the table has no rows between start and stop", hint=there)
-        if self._at is not None:
+        if self._reference_topic is not None:
             self._rows = np.flatnonzero(inside)
         return times[inside]
 
@@ -282,7 +286,7 @@ class _Evaluation:
         found: dict[str, TableColumn] = {}
         for messages in self._topics.values():
             columns = [each for each in self._columns if isinstance(each, FieldColumn) and each.messages is messages]
-            found |= _read_together(messages, columns, times, rows if messages.topic == self._at else None)
+            found |= _read_together(messages, columns, times, rows if messages.topic == self._reference_topic else None)
         poses = {each.label: each.values(times) for each in self._columns if isinstance(each, PoseColumn)}
         found |= poses
         return Table(times, [found[each.label] for each in self._columns], self._query.validity)

@@ -135,11 +135,11 @@ def _batch(
         target=frame or None,
         source=child or None,
         stamp=stamps[valid],
-        covariance=_symmetric(covariances) if has_covariance else None,
+        covariance=_to_matrices(covariances) if has_covariance else None,
     )
 
 
-def _symmetric(covariances: NDArray[np.float64]) -> NDArray[np.float64] | None:
+def _to_matrices(covariances: NDArray[np.float64]) -> NDArray[np.float64] | None:
     """Return covariances (N, 36) as matrices (N, 6, 6), or None if they are invalid, as some drivers publish."""
     matrices = covariances.reshape(-1, 6, 6)
     if not np.allclose(matrices, matrices.transpose(0, 2, 1)) or (np.linalg.eigvalsh(matrices) < -1e-9).any():

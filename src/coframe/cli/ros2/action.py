@@ -175,20 +175,20 @@ class _Feedback:
     def __init__(self, *, is_printed: bool, deadline: Deadline | None) -> None:
         self._is_printed = is_printed
         self._deadline = deadline
-        self._waiting: list[Any] | None = []  # None after the acceptance
+        self._waiting_statuses: list[Any] | None = []  # None after the acceptance
 
     def receive(self, message: Any) -> None:
         """Extend the wait, and print the feedback of a message."""
         if self._deadline is not None:
             self._deadline.extend()
-        if self._waiting is not None:
-            self._waiting.append(message)
+        if self._waiting_statuses is not None:
+            self._waiting_statuses.append(message)
         elif self._is_printed:
             _print_indented("Feedback", message.feedback)
 
     def start(self) -> None:
         """Print the feedback that has arrived; the goal is accepted."""
-        waiting, self._waiting = self._waiting or [], None
+        waiting, self._waiting_statuses = self._waiting_statuses or [], None
         for message in waiting:
             self.receive(message)
 

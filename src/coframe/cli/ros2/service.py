@@ -103,7 +103,9 @@ def call(
         if not client.service_is_ready():
             print("waiting for service to become available...", flush=True)
             limit = Deadline(timeout or MAX_WAIT_FOR_SERVER)
-            wait_for_server(client, client.wait_for_service, shown, limit, lambda: _similar(node, service_name))
+            wait_for_server(
+                client, client.wait_for_service, shown, limit, lambda: _similar_services_hint(node, service_name)
+            )
         while True:
             fill_stamps(node.get_clock().now().to_msg())
             print(f"requester: making request: {request!r}\n", flush=True)
@@ -151,7 +153,7 @@ def info(service_name: str, verbose: bool, spin_time: NonNegativeDuration) -> No
     with graph_node(spin_time) as node:
         types = wait_until(lambda: dict(node.get_service_names_and_types()).get(service_name))
         if not types:
-            fail(f"Unknown service '{service_name}'", _similar(node, service_name))
+            fail(f"Unknown service '{service_name}'", _similar_services_hint(node, service_name))
         print(f"Type: {one_line(types[0] if len(types) == 1 else str(types))}", end=end)
         print(f"Clients count: {node.count_clients(service_name)}", end=end)
         for endpoint in _endpoints(node, "get_clients_info_by_service", service_name) if verbose else ():
@@ -210,7 +212,7 @@ def _complete_type(name: str) -> str:
     return f"{package}/srv/{last}" if last and "/" not in last else name
 
 
-def _similar(node: Node, name: str) -> str:
+def _similar_services_hint(node: Node, name: str) -> str:
     """Return similar names of services in the graph, or how to list all."""
     # The client of this command has the same name.
     names = (each for each, _ in _services(node, include_hidden=False) if each != name)

@@ -231,7 +231,7 @@ class FramesFeed(_Feed):
                     self._client.fail(subscription, error)
                 else:
                     for _, drawing in drawings:
-                        yield Update(None, None, partial(_unchanged, drawing))
+                        yield Update(None, None, partial(_keep_data, drawing))
                     entries += poses
             status = self._status(subscription)
             yield Update(("display", number), (subscription.serial, status), partial(_encode_status, number, status))
@@ -299,5 +299,5 @@ def _encode_status(number: int, status: Status) -> str:
     return encode(message)
 
 
-def _unchanged(data: bytearray) -> bytearray:
+def _keep_data(data: bytearray) -> bytearray:
     return data

@@ -104,7 +104,7 @@ class InspectionFeed(PanelFeed):
         super().__init__(client)
         self._late_due = 0.0
         self._inspection: Future[_InspectedMessage] | None = None
-        self._shown = _InspectedMessage(None, None, "waiting", "")
+        self._shown_message = _InspectedMessage(None, None, "waiting", "")
 
     def updates(self, now: float) -> Iterator[Update]:
         """Yield the last message that was read."""
@@ -119,12 +119,12 @@ class InspectionFeed(PanelFeed):
         if self._inspection is not None and self._inspection.done():
             found, self._inspection = self._inspection.result(), None
             if found.topic is watched:
-                self._shown = found
+                self._shown_message = found
         elif self._inspection is not None:
             self.due = now + _READING_PERIOD
         publishers = self._publishers(watched.topic)
-        if self._shown.topic is watched:
-            version = (id(watched), self._shown.key, publishers)
+        if self._shown_message.topic is watched:
+            version = (id(watched), self._shown_message.key, publishers)
             yield Update("inspection", version, partial(self._encode, publishers))
 
     def _read(self, watched: WatchedTopic) -> None:
@@ -132,19 +132,19 @@ class InspectionFeed(PanelFeed):
         messages, at = watched.messages, self._client.at
         if messages is None:
             why = watched.missing_reason()
-            self._shown = _InspectedMessage(watched, why, "waiting", why)
+            self._shown_message = _InspectedMessage(watched, why, "waiting", why)
             return
         found = messages.at(at)
         key = None if found is None else found.key
         if found is None:
             when = "yet" if at == 0 else "before this time"
-            self._shown = _InspectedMessage(watched, key, "waiting", f"no message {when}", messages.type)
-        elif (watched, key) != (self._shown.topic, self._shown.key) and self._inspection is None:
+            self._shown_message = _InspectedMessage(watched, key, "waiting", f"no message {when}", messages.type)
+        elif (watched, key) != (self._shown_message.topic, self._shown_message.key) and self._inspection is None:
             executor = self._client.viewer.executor
             self._inspection = executor.submit(_read_message, watched, messages, found, at)
 
     def _encode(self, publishers: Sequence[str]) -> str:
-        shown = self._shown
+        shown = self._shown_message
         return encode(
             Inspection(
                 type="inspection",

@@ -123,7 +123,7 @@ async def _step(client: ClientState, request: client_messages.Step) -> None:
     client.clock.move(at if found is None else found)
 
 
-async def _relate(client: ClientState, request: client_messages.RequestRelation) -> Relation:
+async def _answer_relation(client: ClientState, request: client_messages.RequestRelation) -> Relation:
     buffer = client.viewer.source.buffer
     return relate(buffer, request.target, request.source, client.at, client.origin, request.id)
 
@@ -294,7 +294,7 @@ _HANDLERS: dict[type, Callable[[ClientState, Any], Awaitable[ServerMessage | Non
     client_messages.PublishPoint: _publish_point,
     client_messages.PublishPose: _publish_pose,
     client_messages.PublishStatic: _publish_static,
-    client_messages.RequestRelation: _relate,
+    client_messages.RequestRelation: _answer_relation,
     client_messages.RequestTimeline: _timeline,
     client_messages.Restart: _restart,
     client_messages.SaveRviz: _save_rviz,

@@ -88,9 +88,9 @@ class Client:
         self.due = 0.0
         self._feeds = make_feeds(self.state)
         self._sent: dict[Hashable, object] = {}  # The last version of each key.
-        self._ready = True
+        self._is_ready = True
         self._requests: deque[_Request] = deque()
-        self._answering: asyncio.Task[None] | None = None
+        self._answer_task: asyncio.Task[None] | None = None
         self._pulse_due = 0.0
         self._reported: set[str] = set()  # The unexpected exceptions that the page knows.
 
@@ -101,18 +101,18 @@ class Client:
         except BadRequestError as error:
             request = error
         if isinstance(request, FrameDrawn):
-            self._ready = True
+            self._is_ready = True
             return
         self._requests.append(request)
         if len(self._requests) >= MAX_REQUESTS:
             self._socket.pause()
-        if self._answering is None:
-            self._answering = asyncio.get_running_loop().create_task(self._answer_all())
+        if self._answer_task is None:
+            self._answer_task = asyncio.get_running_loop().create_task(self._answer_all())
 
     def disconnected(self) -> None:
         """Clean up after the connection has ended."""
-        if self._answering is not None:
-            self._answering.cancel()
+        if self._answer_task is not None:
+            self._answer_task.cancel()
         self.state.close()
 
     def update(self, now: float) -> None:
@@ -127,11 +127,11 @@ class Client:
         try:
             self.state.publish_joints()
             self._viewer.panels.poll()
-            if self._ready and self._socket.is_clear:
+            if self._is_ready and self._socket.is_clear:
                 self._viewer.refresh()
         except Exception as error:  # noqa: BLE001 - one failure must not stop the others
             self._report("the viewer could not be updated completely; it tries again", error)
-        if self._ready and self._socket.is_clear:
+        if self._is_ready and self._socket.is_clear:
             self._send_updates(now)
 
     def pulse(self, now: float) -> None:
@@ -165,7 +165,7 @@ class Client:
                 sent[key] = version
             self._socket.send(encode_update())
             if key == FRAMES:
-                self._ready = False
+                self._is_ready = False
 
     def _report(self, what: str, error: Exception) -> None:
         """Log an unexpected exception, and tell the page about the first one of its kind."""
@@ -194,7 +194,7 @@ class Client:
                 if len(self._requests) < MAX_REQUESTS // 2:
                     self._socket.resume()
                 await self._answer(request)
-            self._answering = None
+            self._answer_task = None
         except Exception as error:  # noqa: BLE001 - one failure must not stop the others
             report_failure("an answer could not be sent and the client was disconnected; the others continue", error)
             self._socket.abort()
@@ -207,19 +207,19 @@ class Client:
     async def _answers(self, request: _Request) -> list[ServerMessage]:
         """Return the answer; that to a request that fails is its error, also on the display that it concerns."""
         if isinstance(request, BadRequestError):
-            return _refusal(str(request), request.hint, request.display)
+            return _failure_answers(str(request), request.hint, request.display)
         display = request.id if isinstance(request, Subscribe) else None
         try:
             answer = await handle(self.state, request)
         except (BadRequestError, ViewerError, WireError) as error:
-            return _refusal(str(error), error.hint, display)
+            return _failure_answers(str(error), error.hint, display)
         except Exception as error:  # noqa: BLE001 - a request that fails unexpectedly must not stop the others
             report_failure(f"a request {type(request).__name__} failed; the viewer continues", error)
-            return _refusal(f"A request failed: {type(error).__name__}: {error}", "", display)
+            return _failure_answers(f"A request failed: {type(error).__name__}: {error}", "", display)
         return [] if answer is None else [answer]
 
 
-def _refusal(text: str, hint: str, display: int | None) -> list[ServerMessage]:
+def _failure_answers(text: str, hint: str, display: int | None) -> list[ServerMessage]:
     """Return the answers to a request that failed."""
     answers: list[ServerMessage] = [ProblemReport(type="problem", text=text, hint=hint)]
     if display is not None:

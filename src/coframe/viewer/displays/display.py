@@ -73,14 +73,14 @@ class _Entry:
         self.size = len(drawing.data) + _ENTRY_BYTES
         self.pose: NDArray[np.float64] | None = None
         self.error: TransformException | None = None
-        self._fixed: str | None = None  # The fixed frame of the pose.
+        self._fixed_frame: str | None = None  # The fixed frame of the pose.
 
     def place(self, buffer: Buffer, fixed: str, at: int) -> bool:
         """Look up the pose unless it is already known, and return whether it is known."""
         drawing = self.drawing
-        if self._fixed == fixed and self.pose is not None and not drawing.locked:
+        if self._fixed_frame == fixed and self.pose is not None and not drawing.locked:
             return True
-        self.pose, self._fixed = None, fixed
+        self.pose, self._fixed_frame = None, fixed
         if not drawing.placed or self.frame == FIXED_FRAME:
             self.pose = np.array([*drawing.offset, 0.0, 0.0, 0.0, 1.0])
             return True
@@ -158,7 +158,7 @@ class Display:
         self._first = StampedMessage(0, 0, lambda: None) if draws else None
         self._sequences = itertools.count(1)
         self._last_key: int | None = None  # The key of the message that was drawn last.
-        self._work: Future[_Rendered | None] | None = None
+        self._render_task: Future[_Rendered | None] | None = None
         self._incoming: _Layer | None = None
         self._incoming_since = 0.0
         self._left_out = 0  # drawings of the pending layer
@@ -175,7 +175,7 @@ class Display:
             now: The time in nanoseconds at which lifetimes end if `at` is 0.
         """
         self._collect()
-        if self._work is None and self._incoming is None:
+        if self._render_task is None and self._incoming is None:
             self._start_drawing(at, at or now)
         if self._incoming is not None:
             self._place_incoming(self._incoming, buffer, fixed, at)
@@ -217,21 +217,21 @@ class Display:
 
     def close(self) -> None:
         """Stop drawing."""
-        if self._work is not None:
-            self._work.cancel()
+        if self._render_task is not None:
+            self._render_task.cancel()
 
     def _entries(self) -> list[_Entry]:
         return [entry for layer in self._layers for entry in layer.entries]
 
     def _start_drawing(self, at: int, now: int) -> None:
         if self.messages.pending():
-            self._work = self._executor.submit(self._find_and_render, at, now)
+            self._render_task = self._executor.submit(self._find_and_render, at, now)
             return
         message = self.messages.at(at) or self._first
         if message is None:
             self._show_nothing(at)
         elif self._has_changed(message, now, at):
-            self._work = self._executor.submit(_render, self._renderer, message, now, at)
+            self._render_task = self._executor.submit(_render, self._renderer, message, now, at)
 
     def _find_and_render(self, at: int, now: int) -> _Rendered | None:
         """Find the message outside the server's thread, because this is slow, or None if nothing changed."""
@@ -251,9 +251,9 @@ class Display:
         self.status = Status("waiting", "no message yet" if at == 0 else "no message before this time")
 
     def _collect(self) -> None:
-        if self._work is None or not self._work.done():
+        if self._render_task is None or not self._render_task.done():
             return
-        rendered, self._work = self._work.result(), None
+        rendered, self._render_task = self._render_task.result(), None
         if rendered is None:
             return
         self.is_unfinished = isinstance(rendered.drawings, Status) and rendered.drawings.state == "waiting"
@@ -280,7 +280,7 @@ class Display:
         missing = layer.place(buffer, fixed, at)
         if missing is None:
             self._show(layer)
-            self.status = Status("ok", note=self._note(layer))
+            self.status = Status("ok", note=self._omission_note(layer))
             if self._left_out:
                 left_out = count(self._left_out, "group")
                 self.status = Status(
@@ -321,7 +321,7 @@ class Display:
         self._layers.clear()
         self._layer_bytes = 0
 
-    def _note(self, layer: _Layer) -> str:
+    def _omission_note(self, layer: _Layer) -> str:
         """Return what the display omits."""
         if self._layer_bytes + layer.size > MAX_LAYER_BYTES and len(self._layers) > 1:
             shown = (self._layers[-1].time - self._layers[0].time) / SECOND

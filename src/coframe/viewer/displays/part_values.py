@@ -53,7 +53,7 @@ def part_values(
 def _point(cloud: Any, topic: str, position: NDArray[np.float64]) -> PartValues:
     del topic  # Expressions cannot select a point of a cloud.
     points = np.stack([field_of(cloud, name).reshape(-1).astype(np.float64) for name in "xyz"], axis=1)
-    index = _nearest(points, position)
+    index = _nearest_index(points, position)
     if index is None:
         return PartValues([], [])
     values = [("index", str(index))]
@@ -67,7 +67,7 @@ def _point(cloud: Any, topic: str, position: NDArray[np.float64]) -> PartValues:
 
 def _beam(scan: Any, topic: str, position: NDArray[np.float64]) -> PartValues:
     hits = project_scan(scan)
-    nearest = _nearest(hits.points, position)
+    nearest = _nearest_index(hits.points, position)
     if nearest is None:
         return PartValues([], [])
     beam = int(hits.beams[nearest])
@@ -84,7 +84,7 @@ def _beam(scan: Any, topic: str, position: NDArray[np.float64]) -> PartValues:
     return PartValues(values, curves)
 
 
-def _nearest(points: NDArray[np.float64], position: NDArray[np.float64]) -> int | None:
+def _nearest_index(points: NDArray[np.float64], position: NDArray[np.float64]) -> int | None:
     """Return the index of the point nearest to a position, or None if no point is finite."""
     with np.errstate(over="ignore", invalid="ignore"):
         distances = np.square(points - position).sum(axis=1)

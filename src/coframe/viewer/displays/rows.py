@@ -58,7 +58,7 @@ def displayable(topics: Iterable[tuple[str, str]]) -> list[DisplayTopic]:
     places = [
         (place, DISPLAYS[name], topic, ros_type)
         for name, found in of_row.items()
-        for place, (topic, ros_type) in enumerate(sorted(found, key=_plainness))
+        for place, (topic, ros_type) in enumerate(sorted(found, key=_simplicity_key))
     ]
     places.sort(key=lambda one: (one[0], one[1].rank, one[1].name, one[2]))
     chosen = [topic for place, row, topic, _ in places if row.automatic and place < row.max_automatic]
@@ -69,7 +69,7 @@ def displayable(topics: Iterable[tuple[str, str]]) -> list[DisplayTopic]:
     ] + [DisplayTopic(topic=topic, type=ros_type, display="", automatic=False) for topic, ros_type in sorted(plain)]
 
 
-def _plainness(topic: tuple[str, str]) -> tuple[int, int, str]:
+def _simplicity_key(topic: tuple[str, str]) -> tuple[int, int, str]:
     """Return a sort key: /scan comes before /front/scan and /scan_filtered."""
     return topic[0].count("/"), len(topic[0]), topic[0]
 

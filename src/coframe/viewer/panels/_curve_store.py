@@ -100,9 +100,9 @@ class CurveStore:
             if self._executor is None:
                 self._executor = ThreadPoolExecutor(1, "coframe-viewer-curves")
             return RecordedCurve(expression, self._source.recording, self._executor)
-        return self._live(expression)
+        return self._live_curve(expression)
 
-    def _live(self, expression: Expression) -> Curve:
+    def _live_curve(self, expression: Expression) -> Curve:
         # Imported here because pages without curves do not need them.
         from coframe.viewer.panels._live_curves import (  # noqa: PLC0415
             EdgeDelayCurve,

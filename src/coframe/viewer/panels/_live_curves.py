@@ -149,7 +149,7 @@ class TopicCurve(LiveCurve):
         super().__init__(expression)
         self._arrivals = arrivals
         self._error: CurveState | None = None
-        self._open = True
+        self._is_open = True
         arrivals.add(self._receive)
 
     @property
@@ -164,8 +164,8 @@ class TopicCurve(LiveCurve):
 
     def close(self) -> None:
         """Unsubscribe if no other curve uses the topic."""
-        if self._open:
-            self._open = False
+        if self._is_open:
+            self._is_open = False
             self._arrivals.remove(self._receive)
 
     def _receive(self, messages: ArrivedMessages) -> None:
@@ -249,19 +249,19 @@ class _RateMeter:
     """Computes the mean rate over the previous second for times that arrive in batches."""
 
     def __init__(self) -> None:
-        self._recent: NDArray[np.int64] = np.empty(0, dtype=np.int64)
+        self._recent_times: NDArray[np.int64] = np.empty(0, dtype=np.int64)
 
     def rates(self, times: NDArray[np.int64]) -> NDArray[np.float64]:
         """Return the rate at each of the new times; NaN until enough time has passed."""
         if not len(times):
             return np.empty(0)
-        if len(self._recent) and times[-1] < self._recent[-1] - SECOND:
-            self._recent = self._recent[:0]
-        known = np.sort(np.concatenate([self._recent, times]))
+        if len(self._recent_times) and times[-1] < self._recent_times[-1] - SECOND:
+            self._recent_times = self._recent_times[:0]
+        known = np.sort(np.concatenate([self._recent_times, times]))
         # The mean begins at the last message that is at least a second older.
         keep_from = max(0, int(np.searchsorted(known, known[-1] - SECOND, side="right")) - 1)
         found = rates(known)[-len(times) :]
-        self._recent = known[keep_from:]
+        self._recent_times = known[keep_from:]
         return found
 
 

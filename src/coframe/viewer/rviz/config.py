@@ -140,13 +140,13 @@ class RvizConfig:
     @property
     def fixed_frame(self) -> str:
         """The fixed frame, or "" if the file does not contain one."""
-        value = self._global.get("Fixed Frame")
+        value = self._global_options.get("Fixed Frame")
         return value if isinstance(value, str) and value != "<Fixed Frame>" else ""
 
     @property
     def frame_rate(self) -> float | None:
         """Frames per second, or None if the file contains no valid rate."""
-        value = self._global.get("Frame Rate")
+        value = self._global_options.get("Frame Rate")
         return float(value) if is_number(value) and 1 <= value <= 1000 else None
 
     @property
@@ -179,7 +179,7 @@ class RvizConfig:
         ignored += [*ignored_view_options(view), *ignored_tools(self._manager), *ignored_panels(self._document)]
         global_options = RvizGlobalOptions(
             fixed_frame=self.fixed_frame or None,
-            background=_color_of(self._global.get("Background Color")),
+            background=_color_of(self._global_options.get("Background Color")),
             frame_rate=self.frame_rate,
         )
         return RvizConfiguration(
@@ -241,7 +241,7 @@ class RvizConfig:
         return manager
 
     @property
-    def _global(self) -> dict[str, Any]:
+    def _global_options(self) -> dict[str, Any]:
         return _mapping(self._manager, "Global Options")
 
     @property
@@ -313,7 +313,7 @@ class RvizConfig:
             _reorder(container, [display for inside, display in placed if inside is container])
 
     def _merge_global(self, options: Mapping[str, Any]) -> None:
-        values = dict(self._global)
+        values = dict(self._global_options)
         fixed, background, rate = (options.get(key) for key in ("fixed_frame", "background", "frame_rate"))
         if isinstance(fixed, str) and fixed != self.fixed_frame:
             values["Fixed Frame"] = fixed
@@ -321,7 +321,7 @@ class RvizConfig:
             values["Background Color"] = "; ".join(str(min(max(int(part), 0), 255)) for part in background)
         if is_number(rate) and rate != self.frame_rate:
             values["Frame Rate"] = int(rate)
-        if values != self._global:
+        if values != self._global_options:
             self._manager["Global Options"] = values
 
     def _merge_view(self, view: Mapping[str, Any]) -> None:

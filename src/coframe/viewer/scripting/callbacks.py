@@ -25,11 +25,11 @@ class CallbackThread:
 
     def __init__(self) -> None:
         self._condition = threading.Condition()
-        self._waiting: dict[Hashable, Callable[[], object]] = {}
+        self._waiting_callbacks: dict[Hashable, Callable[[], object]] = {}
         self._events = 0
         self._thread: threading.Thread | None = None
         self._closed = False
-        self._warned = False
+        self._has_warned = False
 
     def submit(self, callback: Callable[[], object], subject: Hashable = None) -> None:
         """Run a callback soon.
@@ -44,10 +44,10 @@ class CallbackThread:
                 return
             self._events += 1
             key = ("event", self._events) if subject is None else ("subject", subject)
-            if key not in self._waiting and len(self._waiting) >= MAX_CALLBACKS:
+            if key not in self._waiting_callbacks and len(self._waiting_callbacks) >= MAX_CALLBACKS:
                 self._warn()
                 return
-            self._waiting[key] = callback
+            self._waiting_callbacks[key] = callback
             if self._thread is None:
                 self._thread = threading.Thread(target=self._run, name="coframe-viewer-callbacks", daemon=True)
                 self._thread.start()
@@ -57,12 +57,12 @@ class CallbackThread:
         """Drop the events that wait, and end the thread after the callback that runs now."""
         with self._condition:
             self._closed = True
-            self._waiting.clear()
+            self._waiting_callbacks.clear()
             self._condition.notify()
 
     def _warn(self) -> None:
-        if not self._warned:
-            self._warned = True
+        if not self._has_warned:
+            self._has_warned = True
             _logger.warning(
                 "clicks and changes of widgets were dropped: %d callbacks wait. Let callbacks return sooner.",
                 MAX_CALLBACKS,
@@ -78,7 +78,7 @@ class CallbackThread:
     def _next_callback(self) -> Callable[[], object] | None:
         """Wait for the oldest event and return its callback; None at the end."""
         with self._condition:
-            self._condition.wait_for(lambda: self._waiting or self._closed)
+            self._condition.wait_for(lambda: self._waiting_callbacks or self._closed)
             if self._closed:
                 return None
-            return self._waiting.pop(next(iter(self._waiting)))
+            return self._waiting_callbacks.pop(next(iter(self._waiting_callbacks)))

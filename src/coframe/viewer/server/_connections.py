@@ -38,13 +38,13 @@ class Connections:
         spare = _descriptors() - _RESERVED
         self.backlog = max(1, min(_BACKLOG, spare // (2 * _MAX_BACKLOGS)))
         self._limit = max(1, min(MAX_CONNECTIONS, spare - _MAX_BACKLOGS * self.backlog))
-        self._open: set[WebSocket] = set()
+        self._open_connections: set[WebSocket] = set()
         self._warned_at = -_REPEAT_AFTER
 
     def add(self, connection: WebSocket) -> bool:
         """Add a connection, and return whether that was possible. Warn at most once a minute if it was not."""
-        if len(self._open) < self._limit:
-            self._open.add(connection)
+        if len(self._open_connections) < self._limit:
+            self._open_connections.add(connection)
             return True
         if time.monotonic() - self._warned_at >= _REPEAT_AFTER:
             self._warned_at = time.monotonic()
@@ -54,14 +54,14 @@ class Connections:
 
     def discard(self, connection: WebSocket) -> None:
         """Remove a connection that has ended."""
-        self._open.discard(connection)
+        self._open_connections.discard(connection)
 
     def __len__(self) -> int:
-        return len(self._open)
+        return len(self._open_connections)
 
     def close(self) -> None:
         """Close all connections. They are removed when they have ended."""
-        for connection in list(self._open):
+        for connection in list(self._open_connections):
             connection.close()
 
 

@@ -69,15 +69,15 @@ class WebSocket(asyncio.Protocol):
         self._protocol = ServerProtocol(max_size=MAX_REQUEST_BYTES, logger=_quiet_logger())
         self._transport: asyncio.Transport | None = None
         self._listener: Listener | None = None
-        self._answering: asyncio.Task[None] | None = None
+        self._answer_task: asyncio.Task[None] | None = None
         self._idle_timer: asyncio.TimerHandle | None = None
         self._is_alive = True
         self._unwritten = 0  # Bytes that the operating system had not accepted at the last check.
         self._message = bytearray()  # The parts of an incomplete message.
         self._is_text = True
-        self._unsent: deque[_MessagePart] = deque()
-        self._clear = asyncio.Event()
-        self._clear.set()
+        self._unsent_parts: deque[_MessagePart] = deque()
+        self._clear_event = asyncio.Event()
+        self._clear_event.set()
         self._is_writable = True
         self._pause_reasons: set[str] = set()  # The reasons why reading is paused.
 
@@ -89,20 +89,20 @@ class WebSocket(asyncio.Protocol):
     @property
     def is_clear(self) -> bool:
         """Whether the operating system has accepted nearly everything that was sent."""
-        return self._is_writable and not self._unsent
+        return self._is_writable and not self._unsent_parts
 
     async def cleared(self) -> None:
         """Wait until the connection is clear or has ended."""
-        await self._clear.wait()
+        await self._clear_event.wait()
 
     def send(self, message: str | bytes | bytearray) -> None:
         """Send a message as soon as possible. Do nothing if the connection has ended."""
         opcode = Opcode.TEXT if isinstance(message, str) else Opcode.BINARY
         data = message.encode() if isinstance(message, str) else message
         if len(data) <= _PART:
-            self._unsent.append((opcode, data, True))
+            self._unsent_parts.append((opcode, data, True))
         else:
-            self._unsent.extend(_parts(opcode, memoryview(data)))
+            self._unsent_parts.extend(_parts(opcode, memoryview(data)))
         self._send_unsent()
 
     def pause(self) -> None:
@@ -143,12 +143,12 @@ class WebSocket(asyncio.Protocol):
         self._transport = None
         self._connections.discard(self)
         self._protocol.receive_eof()
-        self._unsent.clear()
-        self._clear.set()
+        self._unsent_parts.clear()
+        self._clear_event.set()
         if self._idle_timer is not None:
             self._idle_timer.cancel()
-        if self._answering is not None:
-            self._answering.cancel()
+        if self._answer_task is not None:
+            self._answer_task.cancel()
         if self._listener is not None:
             self._listener.disconnected()
 
@@ -158,7 +158,7 @@ class WebSocket(asyncio.Protocol):
         for event in self._protocol.events_received():
             if isinstance(event, Request):
                 self._pause("response")  # A client must not send more before it receives the response.
-                self._answering = asyncio.get_running_loop().create_task(self._respond(event))
+                self._answer_task = asyncio.get_running_loop().create_task(self._respond(event))
             else:
                 self._is_alive = True
                 self._receive(cast("Frame", event))
@@ -174,7 +174,7 @@ class WebSocket(asyncio.Protocol):
     def pause_writing(self) -> None:
         """Stop sending. See asyncio.Protocol."""
         self._is_writable = False
-        self._clear.clear()
+        self._clear_event.clear()
         self._pause("unwritten")  # A client that only sends pings would fill the memory with pongs.
 
     def resume_writing(self) -> None:
@@ -183,7 +183,7 @@ class WebSocket(asyncio.Protocol):
         self._resume("unwritten")
         self._send_unsent()
         if self.is_clear:
-            self._clear.set()
+            self._clear_event.set()
 
     async def _respond(self, request: Request) -> None:
         try:
@@ -219,8 +219,8 @@ class WebSocket(asyncio.Protocol):
             self._protocol.fail(1007, "not UTF-8")
 
     def _send_unsent(self) -> None:
-        while self._unsent and self._is_writable:
-            frame = _frame(*self._unsent.popleft())
+        while self._unsent_parts and self._is_writable:
+            frame = _frame(*self._unsent_parts.popleft())
             if self._transport is not None and self._protocol.state is OPEN:
                 self._transport.write(frame)
 
@@ -252,7 +252,7 @@ class WebSocket(asyncio.Protocol):
         if self._transport is None:
             return
         before, self._unwritten = self._unwritten, self._transport.get_write_buffer_size()
-        is_answering = self._answering is not None and not self._answering.done()
+        is_answering = self._answer_task is not None and not self._answer_task.done()
         if not (self._is_alive or is_answering or self._unwritten < before):
             self.abort()
             return

@@ -77,11 +77,11 @@ class ViewerServer:
         self._warned_at = -_REPEAT_AFTER
         self._scheduler = ClientScheduler(self._loop, state)
         self._end = asyncio.Event()
-        self._started = threading.Event()
+        self._start_event = threading.Event()
         self._failure: Exception | None = None
         self._thread = threading.Thread(target=self._run, args=(port,), name="coframe-viewer", daemon=True)
         self._thread.start()
-        self._started.wait()
+        self._start_event.wait()
         if self._failure is not None:
             self._thread.join()
             raise _cannot_listen(host, DEFAULT_PORT if port is None else port, self._failure) from self._failure
@@ -125,7 +125,7 @@ class ViewerServer:
         try:
             self._loop.run_until_complete(self._serve(port))
         finally:
-            self._started.set()
+            self._start_event.set()
             self._state.close()
             self._loop.run_until_complete(self._loop.shutdown_asyncgens())
             self._loop.close()
@@ -138,7 +138,7 @@ class ViewerServer:
             return
         self.port = next(iter(server.sockets)).getsockname()[1]
         self._access = AccessPolicy(self._host, self.port)
-        self._started.set()
+        self._start_event.set()
         try:
             await self._end.wait()
         finally:
@@ -173,7 +173,7 @@ class ViewerServer:
 
     async def _answer(self, request: Request) -> Response | None:
         """Return the response to a request; None opens a WebSocket."""
-        if (refusal := self._refusal(request)) is not None:
+        if (refusal := self._error_response(request)) is not None:
             return refusal
         parts = urlsplit(request.path)
         reply = self._token_reply(request, parts) if self._access.token else None
@@ -191,7 +191,7 @@ class ViewerServer:
             return await (self._answer_replay if path == "/replay" else self._answer_curves)(parts.query)
         return self._answer_page(path, request.headers.get("If-None-Match"), request.headers.get_all("Accept-Encoding"))
 
-    def _refusal(self, request: Request) -> Response | None:
+    def _error_response(self, request: Request) -> Response | None:
         """Return the response to a request that is not allowed or not valid, or None for others."""
         policy = self._access.content_security
         for name in _SINGLE_HEADERS:

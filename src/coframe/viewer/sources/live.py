@@ -58,7 +58,7 @@ class LiveSource:
         self.buffer = connection.buffer
         self.title = f"coframe: ROS domain {connection.participant.domain_id}"
         self.node = NodeName(connection.node.namespace, connection.node.name)
-        self._own = own
+        self._owns_connection = own
         self._subscriptions: weakref.WeakSet[AdaptiveSubscription] = weakref.WeakSet()
         self._sim_time = SimTime(connection, follow=use_sim_time)
         self._stamps = TransformStamps(connection)
@@ -158,7 +158,7 @@ class LiveSource:
         """Close the connection if the source owns it, and the subscriptions of the source in any case."""
         self._sim_time.close()
         self._stamps.close()
-        if self._own:
+        if self._owns_connection:
             self._connection.close()
 
 

@@ -49,7 +49,7 @@ class RecordedSource(WithoutClock):
         self.span: tuple[int, int] | None = (first, last) if last > first else None
         self._recording = recording
         self.recording: Recording | None = recording
-        self._own = own
+        self._owns_recording = own
 
     def topics(self) -> list[tuple[str, str]]:
         """Return the recorded topics, with their types."""
@@ -90,7 +90,7 @@ class RecordedSource(WithoutClock):
 
     def close(self) -> None:
         """Close the recording if the source owns it."""
-        if self._own:
+        if self._owns_recording:
             self._recording.close()
 
 

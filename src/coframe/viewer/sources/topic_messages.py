@@ -107,14 +107,14 @@ class LiveMessages:
         self._class = find(ros_type)
         self._deserialize = deserialize
         self._stamp_reader = stamp_reader(ros_type)
-        self._keep = keep
+        self._kept_count = keep
         self._frame = frame
         self._now = now
         self.received_at, self.period = 0, 0.0
-        self._stored: deque[_Stored] = deque()
+        self._stored_messages: deque[_Stored] = deque()
         self._bytes = 0
         self._keys = itertools.count(1)
-        self._taking = threading.Lock()  # Held longer than the other lock, because messages may be large.
+        self._take_lock = threading.Lock()  # Held longer than the other lock, because messages may be large.
         self._lock = threading.Lock()
 
     def frame(self, name: str) -> str:
@@ -129,30 +129,30 @@ class LiveMessages:
         """Return the last message at or before a time in nanoseconds; 0 selects the newest message."""
         self._take()
         with self._lock:
-            if not self._stored:
+            if not self._stored_messages:
                 return None
             index = self._index_after(time) - 1
-            return None if index < 0 else self._message(self._stored[index])
+            return None if index < 0 else self._message(self._stored_messages[index])
 
     def before(self, time: int, count: int) -> list[StampedMessage]:
         """Return up to `count` messages at or before a time, oldest first; 0 selects the newest messages."""
         self._take()
         with self._lock:
             end = self._index_after(time)
-            return [self._message(one) for one in itertools.islice(self._stored, max(0, end - count), end)]
+            return [self._message(one) for one in itertools.islice(self._stored_messages, max(0, end - count), end)]
 
     def after(self, key: int, last: int) -> list[StampedMessage]:
         """Return the kept messages with keys above `key` and up to `last`, oldest first."""
         self._take()
         with self._lock:
-            newer = itertools.takewhile(lambda stored: stored.key > key, reversed(self._stored))
+            newer = itertools.takewhile(lambda stored: stored.key > key, reversed(self._stored_messages))
             return [self._message(stored) for stored in reversed([one for one in newer if one.key <= last])]
 
     def times(self) -> NDArray[np.int64]:
         """Return the positions of all messages on the timeline, in order."""
         self._take()
         with self._lock:
-            return np.array([stored.time for stored in self._stored], np.int64)
+            return np.array([stored.time for stored in self._stored_messages], np.int64)
 
     def close(self) -> None:
         """Unsubscribe from the topic."""
@@ -161,7 +161,7 @@ class LiveMessages:
     def _take(self) -> None:
         if not self._subscription.pending():
             return
-        with self._taking:
+        with self._take_lock:
             samples = self._subscription.take()
             if samples:
                 self._note_arrival(len(samples))
@@ -182,28 +182,28 @@ class LiveMessages:
         if stamp is None or stamp <= 0:
             stamp = self._now()
         # Times must not decrease: a late message is placed at the newest time.
-        newest = self._stored[-1].time if self._stored else stamp
-        if stamp < newest - self._keep:  # Time jumped back, for example because a simulation was restarted.
-            self._stored.clear()
+        newest = self._stored_messages[-1].time if self._stored_messages else stamp
+        if stamp < newest - self._kept_count:  # Time jumped back, for example because a simulation was restarted.
+            self._stored_messages.clear()
             self._bytes = 0
             newest = stamp
-        self._stored.append(_Stored(next(self._keys), max(stamp, newest), data))
+        self._stored_messages.append(_Stored(next(self._keys), max(stamp, newest), data))
         self._bytes += len(data)
         self._drop_old()
 
     def _drop_old(self) -> None:
-        newest = self._stored[-1].time
-        while len(self._stored) > 1 and (
-            self._stored[0].time < newest - self._keep
+        newest = self._stored_messages[-1].time
+        while len(self._stored_messages) > 1 and (
+            self._stored_messages[0].time < newest - self._kept_count
             or self._bytes > self.MAX_BYTES
-            or len(self._stored) > self.MAX_MESSAGES
+            or len(self._stored_messages) > self.MAX_MESSAGES
         ):
-            self._bytes -= len(self._stored.popleft().data)
+            self._bytes -= len(self._stored_messages.popleft().data)
 
     def _index_after(self, time: int) -> int:
         if time == 0:
-            return len(self._stored)
-        return bisect_right(self._stored, time, key=lambda stored: stored.time)
+            return len(self._stored_messages)
+        return bisect_right(self._stored_messages, time, key=lambda stored: stored.time)
 
     def _message(self, stored: _Stored) -> StampedMessage:
         return StampedMessage(stored.key, stored.time, lambda: self._deserialize(stored.data, self._class))

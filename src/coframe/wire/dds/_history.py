@@ -56,7 +56,7 @@ class HistoryRequests:
         self._guid = participant.guid
         self._graph = graph
         self._version = -1
-        self._known: set[int] = set()  # writers on Fast DDS, whether or not a reader needs their history
+        self._known_writers: set[int] = set()  # writers on Fast DDS, whether or not a reader needs their history
         self._topics: dict[tuple[str, str], _Topic] = {}  # by name and type
 
     def update(self) -> int:
@@ -83,8 +83,8 @@ class HistoryRequests:
         slow = {handle: writer for handle, writer in self._graph.all_writers().items() if _has_slow_history(writer)}
         for topic in self._topics.values():
             topic.attempts = {handle: number for handle, number in topic.attempts.items() if handle in slow}
-        new = slow.keys() - self._known
-        self._known = set(slow)
+        new = slow.keys() - self._known_writers
+        self._known_writers = set(slow)
         if not new:
             return
         read = self._graph.read_history(self._guid)

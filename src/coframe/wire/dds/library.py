@@ -147,12 +147,12 @@ def _first_usable(searched: Iterator[Place]) -> Library:
         if place.path is None:
             continue
         if place.version and not _SUPPORTED_VERSION.fullmatch(place.version):
-            rejected.append(_refusal(place, "has an incompatible binary interface"))
+            rejected.append(_rejection_text(place, "has an incompatible binary interface"))
             continue
         try:
             release = _core.load_dds(str(place.path))
         except RuntimeError as error:
-            rejected.append(_refusal(place, str(error)))
+            rejected.append(_rejection_text(place, str(error)))
             continue
         return Library(place, release, tuple(rejected))
     if rejected:
@@ -160,7 +160,7 @@ def _first_usable(searched: Iterator[Place]) -> Library:
     raise _missing_library_error(looked)
 
 
-def _refusal(place: Place, reason: str) -> str:
+def _rejection_text(place: Place, reason: str) -> str:
     version = f"version {place.version}, " if place.version else ""  # "version 12.1.0, from the system"
     return (
         f"The DDS library {place.path} ({version}from {place.source}) cannot be used because it {reason}. "

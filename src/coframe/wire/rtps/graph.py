@@ -66,7 +66,7 @@ class DdsGraph(Graph):
         self._participants: dict[int, tuple[bytes, bool]] = {}  # by handle: the GUID, and whether it is one of ROS
         self._gid_sizes: dict[bytes, int] = {}  # by participant
         # Writers that send requests in another form.
-        self._departed: OrderedDict[int, DiscoveredEndpoint] = OrderedDict()
+        self._departed_endpoints: OrderedDict[int, DiscoveredEndpoint] = OrderedDict()
 
     def close(self) -> None:
         """Close the discovery readers. The state remains available."""
@@ -91,7 +91,7 @@ class DdsGraph(Graph):
 
     def foreign_writer(self, handle: int) -> str:
         """Return what `foreign_services` returns for a writer, even after it has left."""
-        writer = self.writer(handle) or self._departed.get(handle)
+        writer = self.writer(handle) or self._departed_endpoints.get(handle)
         return "" if writer is None else self.foreign_services(writer)
 
     def has_matched_client(self, readers: Collection[int], writer: int) -> bool:
@@ -194,9 +194,9 @@ class DdsGraph(Graph):
                 continue
             departed = self._remove_writer(handle)
             if departed is not None and self.foreign_services(departed):
-                self._departed[handle] = departed
-                if len(self._departed) > MAX_DEPARTED_WRITERS:
-                    self._departed.popitem(last=False)
+                self._departed_endpoints[handle] = departed
+                if len(self._departed_endpoints) > MAX_DEPARTED_WRITERS:
+                    self._departed_endpoints.popitem(last=False)
         return changed
 
     def _take_participants(self) -> bool:

@@ -75,8 +75,10 @@ class Receiver:
         self._name = name
         self._lock = threading.Lock()
         self._numbers: OrderedDict[bytes, int] = OrderedDict()  # the last message of each publisher
-        self._recent: OrderedDict[tuple[bytes, int], None] | None = OrderedDict() if len(key_list) > 1 else None
-        self._warned = False
+        self._recent_messages: OrderedDict[tuple[bytes, int], None] | None = (
+            OrderedDict() if len(key_list) > 1 else None
+        )
+        self._has_warned = False
         self._warn_of_failure = CountedWarning(_logger.error)
         self._subscribers = [_declare(session, key, qos) for key in key_list]
         self._threads = [
@@ -124,13 +126,13 @@ class Receiver:
 
     def _is_new(self, header: _keys.Attachment) -> bool:
         """Record a message's sequence number. Return False if the message already arrived at another key."""
-        if self._recent is not None:
+        if self._recent_messages is not None:
             key = header.gid, header.sequence
-            if key in self._recent:
+            if key in self._recent_messages:
                 return False
-            self._recent[key] = None
-            if len(self._recent) > _REPEATS:
-                self._recent.popitem(last=False)
+            self._recent_messages[key] = None
+            if len(self._recent_messages) > _REPEATS:
+                self._recent_messages.popitem(last=False)
         last = self._numbers.get(header.gid)
         if last is None and len(self._numbers) >= _MAX_PUBLISHERS:
             self._numbers.popitem(last=False)
@@ -140,8 +142,8 @@ class Receiver:
         return True
 
     def _warn_of_foreign_sample(self, sample: Any) -> None:
-        if not self._warned:
-            self._warned = True
+        if not self._has_warned:
+            self._has_warned = True
             _logger.warning(
                 "Messages on %s at the key %s are dropped: they do not have the attachment that rmw_zenoh_cpp sends. "
                 "Check for a program that publishes at this key without ROS 2.",

@@ -109,7 +109,7 @@ class _Queue(ZenohEndpoint):
         self._queue: deque[tuple[bytes, int, int]] = deque()
         self._lengths: Counter[int] = Counter()  # the number of queued messages of each writer
         self._queue_lock = threading.Lock()
-        self._longest = queue_length(qos)
+        self._max_length = queue_length(qos)
         self._on_data = on_data
 
     def push(self, message: bytes, sent: int, writer: int) -> bytes | None:
@@ -118,7 +118,7 @@ class _Queue(ZenohEndpoint):
         It is the oldest message of the writer with the most messages, so that one writer cannot displace the others.
         """
         with self._queue_lock:
-            removed = self._pop(self._longest_writer()) if len(self._queue) >= self._longest else None
+            removed = self._pop(self._longest_writer()) if len(self._queue) >= self._max_length else None
             self._queue.append((message, sent, writer))
             self._lengths[writer] += 1
         if self._on_data is not None:
@@ -244,7 +244,7 @@ class RequestReader(_Queue):
             _logger.warning(
                 "Requests of %s are dropped: %d wait for the node, or %d for a response.",
                 self.endpoint.name,
-                self._longest,
+                self._max_length,
                 KEEP_ALL,
             )
 

@@ -316,23 +316,23 @@ class _Search:
         parts = PurePosixPath(pattern).parts
         if not parts or pattern.startswith("/") or ".." in parts or self._steps_left < 0:
             return []
-        found = sorted(set(self._below(self._package, parts)))
+        found = sorted(set(self._find_below(self._package, parts)))
         return [each.relative_to(self._package).as_posix() for each in found[:_MAX_RULES]]
 
-    def _below(self, folder: Path, parts: Sequence[str]) -> Iterator[Path]:
+    def _find_below(self, folder: Path, parts: Sequence[str]) -> Iterator[Path]:
         """Yield what matches the parts of a pattern in a folder, until no steps are left."""
         first, *rest = parts
         if first == "**" and rest:
-            yield from self._below(folder, rest)
+            yield from self._find_below(folder, rest)
         for each in contents(folder):
             self._steps_left -= 1
             if self._steps_left < 0:
                 return
             if first == "**" and each.is_dir() and not each.is_symlink():
-                yield from self._below(each, parts)
+                yield from self._find_below(each, parts)
             if not fnmatchcase(each.name, first) or each.name.startswith(".") > first.startswith("."):
                 continue
             if not rest:
                 yield each
             elif first != "**" and each.is_dir():
-                yield from self._below(each, rest)
+                yield from self._find_below(each, rest)

@@ -42,7 +42,7 @@ class Clock(Rule):
             raise EditError(f"{text[:60]!r} is not a clock: wall or sim")
         self._to_sim = text == "sim"
         self._ticks: deque[tuple[int, int]] = deque(maxlen=_MAX_TICKS)  # receive times and simulated times
-        self._received = self._simulated = 0
+        self._received_count = self._simulated_count = 0
         self._rate = 1.0
 
     def prepare(self, survey: Survey) -> None:
@@ -94,7 +94,7 @@ class Clock(Rule):
         return True
 
     def _tick(self, received: int, simulated: int) -> None:
-        self._received, self._simulated = received, simulated
+        self._received_count, self._simulated_count = received, simulated
         self._ticks.append((received, simulated))
         while self._ticks[0][0] < received - SECOND:
             self._ticks.popleft()
@@ -103,7 +103,7 @@ class Clock(Rule):
             self._rate = (simulated - first[1]) / (received - first[0])
 
     def _convert_stamp(self, stamp: int, received: int) -> int:
-        now = self._simulated + round((received - self._received) * self._rate)
+        now = self._simulated_count + round((received - self._received_count) * self._rate)
         is_wall, is_simulated = abs(received - stamp) < SAME_CLOCK, abs(now - stamp) < MINUTE
         if is_simulated in {is_wall, self._to_sim}:
             return stamp

@@ -125,7 +125,7 @@ class DropPublisher(Rule):
         if not self._track:
             return True
         pose = _pose(one, message)
-        nearest = _nearest(pose, self._ends)
+        nearest = _nearest_end(pose, self._ends)
         self._ends[nearest] = pose
         return nearest + 1 == self._track
 
@@ -147,7 +147,7 @@ def _distance(first: NDArray[np.float64], second: NDArray[np.float64]) -> float:
     return float(np.linalg.norm(first[:3] - second[:3])) + turned
 
 
-def _nearest(pose: NDArray[np.float64], ends: list[NDArray[np.float64]]) -> int:
+def _nearest_end(pose: NDArray[np.float64], ends: list[NDArray[np.float64]]) -> int:
     return int(_distance(pose, ends[1]) < _distance(pose, ends[0]))
 
 
@@ -160,7 +160,7 @@ def _tracks(poses: list[NDArray[np.float64]]) -> list[NDArray[np.float64]]:
     seeds = [first, poses[farthest]]
     ends, steps, apart = list(seeds), [], []
     for pose in poses:
-        nearest = _nearest(pose, ends)
+        nearest = _nearest_end(pose, ends)
         steps.append(_distance(pose, ends[nearest]))
         apart.append(_distance(pose, ends[1 - nearest]))
         ends[nearest] = pose

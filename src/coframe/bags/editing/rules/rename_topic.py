@@ -26,17 +26,17 @@ class RenameTopic(Rule):
 
     def __init__(self, text: str) -> None:
         super().__init__(text)
-        self._old, self._new = map(absolute, split_pair(text, self.form))
-        self._is_namespace = self._old.endswith("/*")
+        self._old_name, self._new = map(absolute, split_pair(text, self.form))
+        self._is_namespace = self._old_name.endswith("/*")
         if self._is_namespace != self._new.endswith("/*"):
             raise EditError(f"{text[:60]!r}: both names of a namespace end with /*, as in /camera/*=/front/*")
 
     def topic(self, name: str) -> str | None:
         """Return the new name of a topic."""
         if self._is_namespace:
-            start = self._old[:-1]
+            start = self._old_name[:-1]
             return self._new[:-1] + absolute(name)[len(start) :] if absolute(name).startswith(start) else name
-        return self._new if absolute(name) == self._old else name
+        return self._new if absolute(name) == self._old_name else name
 
     def prepare(self, survey: Survey) -> None:
         """Refuse a name that another topic has.
@@ -67,4 +67,4 @@ class RenameTopic(Rule):
 
     def nearest(self, survey: Survey) -> str:
         """Return a hint with similar topics."""
-        return did_you_mean(self._old, survey.input_topics)
+        return did_you_mean(self._old_name, survey.input_topics)

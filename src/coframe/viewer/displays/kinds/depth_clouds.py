@@ -30,7 +30,7 @@ class DepthCloudRenderer:
 
     def __init__(self, _messages: TopicMessages, options: Options, resources: Resources) -> None:
         self._options = options
-        self._others = resources.others
+        self._other_topics = resources.others
         self._info_topic = camera_info_topic(resources.topic)
         self._rectified = is_rectified_topic(resources.topic)
         self._lacks_info = False
@@ -70,7 +70,7 @@ class DepthCloudRenderer:
         return self._lacks_info and self._newest(self._info_topic, at) is not None
 
     def _newest(self, topic: str, at: int) -> Any:
-        messages = self._others.get(topic)
+        messages = self._other_topics.get(topic)
         found = None if messages is None else messages.at(at)
         return None if found is None else found.read()
 

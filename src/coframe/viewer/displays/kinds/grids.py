@@ -70,14 +70,14 @@ class MapRenderer:
 
     def __init__(self, _messages: TopicMessages, options: Options, resources: Resources) -> None:
         self._options = options
-        self._others = resources.others
+        self._other_topics = resources.others
         self._grid: Any = None
         self._grid_key: int | None = None
         self._grid_time = 0
         self._cells = np.zeros((0, 0), np.int8)
         self._applied = 0  # The key of the last update in the cells.
         self._drawing: Drawing | None = None
-        self._earlier: deque[_State] = deque()
+        self._earlier_states: deque[_State] = deque()
 
     def draw(self, message: StampedMessage, time: int, at: int) -> list[Drawing]:
         """Return the drawing of the grid."""
@@ -103,7 +103,7 @@ class MapRenderer:
 
     @property
     def _updates(self) -> TopicMessages | None:
-        return next(iter(self._others.values()), None)
+        return next(iter(self._other_topics.values()), None)
 
     def _newest(self, at: int) -> StampedMessage | None:
         """Return the last update of the current grid up to a time; 0 selects the newest one."""
@@ -117,15 +117,15 @@ class MapRenderer:
         self._cells = _cells_of(grid).copy()
         self._grid, self._grid_key, self._grid_time = grid, message.key, message.time
         self._applied, self._drawing = 0, None
-        self._earlier.clear()
+        self._earlier_states.clear()
 
     def _go_back(self, newest: StampedMessage) -> None:
         """Restore the last known state that is not later than an update."""
-        while self._earlier and self._earlier[-1].key > newest.key:
-            self._earlier.pop()
+        while self._earlier_states and self._earlier_states[-1].key > newest.key:
+            self._earlier_states.pop()
         self._drawing = None
-        if self._earlier:
-            self._applied, self._cells = self._earlier[-1].key, self._earlier[-1].cells.copy()
+        if self._earlier_states:
+            self._applied, self._cells = self._earlier_states[-1].key, self._earlier_states[-1].cells.copy()
         else:
             self._applied, self._cells = 0, _cells_of(self._grid).copy()
 
@@ -164,11 +164,11 @@ class MapRenderer:
             self._drawing = None
 
     def _remember(self, update: StampedMessage) -> None:
-        if self._earlier and update.time < self._earlier[-1].time + SECOND:
+        if self._earlier_states and update.time < self._earlier_states[-1].time + SECOND:
             return
-        self._earlier.append(_State(update.key, update.time, self._cells.copy()))
-        while len(self._earlier) * max(self._cells.size, 1) > MAX_EARLIER_BYTES:
-            del self._earlier[len(self._earlier) // 2]
+        self._earlier_states.append(_State(update.key, update.time, self._cells.copy()))
+        while len(self._earlier_states) * max(self._cells.size, 1) > MAX_EARLIER_BYTES:
+            del self._earlier_states[len(self._earlier_states) // 2]
 
 
 def _update_topic(topic: str, options: DisplayOptions) -> tuple[str, ...]:

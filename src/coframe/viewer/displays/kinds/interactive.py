@@ -82,36 +82,36 @@ class InteractiveRenderer:
         self._options = options
         self._resources = resources
         self._namespace = resources.topic.rpartition("/")[0]
-        self._shown: dict[str, _Shown] = {}
-        self._drawn: dict[str, tuple[_Shown, Drawing]] = {}
+        self._shown_markers: dict[str, _Shown] = {}
+        self._drawings: dict[str, tuple[_Shown, Drawing]] = {}
         self._applied = 0
         self._sequence = -1  # Updates up to this number are contained in the response of the server.
-        self._asks = resources.connection is not None
+        self._can_request = resources.connection is not None
         self._due = 0.0
 
     def draw(self, message: StampedMessage, time: int, at: int) -> list[Drawing]:
         """Return one drawing per marker; unchanged markers return the same drawing as before."""
         del time, at
-        if self._asks and monotonic() >= self._due:
+        if self._can_request and monotonic() >= self._due:
             self._ask()
         if 0 < message.key < self._applied:
-            self._shown.clear()
+            self._shown_markers.clear()
             self._applied = 0
         for one in self._messages.after(self._applied, message.key):
             self._apply(one.read())
             self._applied = one.key
         drawn = {}
-        for name, shown in self._shown.items():
-            known = self._drawn.get(name)
+        for name, shown in self._shown_markers.items():
+            known = self._drawings.get(name)
             same = known is not None and all(map(_is, known[0], shown))
             drawn[name] = known if known is not None and same else (shown, self._draw(shown))
-        self._drawn = drawn
+        self._drawings = drawn
         return [drawing for _, drawing in drawn.values()]
 
     def has_changed(self, time: int, at: int) -> bool:
         """Return whether the server has to be asked again."""
         del time, at
-        return self._asks and monotonic() >= self._due
+        return self._can_request and monotonic() >= self._due
 
     def _ask(self) -> None:
         """Ask the server for its markers, because it publishes only changes."""
@@ -129,29 +129,31 @@ class InteractiveRenderer:
             raise CannotDrawError(f"{service} cannot be called: {error}") from None
         if response is None:
             return
-        self._asks = False
+        self._can_request = False
         self._sequence = response.sequence_number
-        self._shown.clear()
+        self._shown_markers.clear()
         for marker in response.markers:
             self._add(marker)
 
     def _apply(self, message: Any) -> None:
         if not hasattr(message, "type"):  # All markers, as servers of ROS 1 publish them.
-            self._shown.clear()
+            self._shown_markers.clear()
         elif message.seq_num <= self._sequence:
             return
         for marker in message.markers:
             self._add(marker)
         for update in getattr(message, "poses", ()):
-            if update.name in self._shown:
-                self._shown[update.name] = _Shown(self._shown[update.name].marker, update.header, update.pose)
+            if update.name in self._shown_markers:
+                self._shown_markers[update.name] = _Shown(
+                    self._shown_markers[update.name].marker, update.header, update.pose
+                )
         for name in getattr(message, "erases", ()):
-            self._shown.pop(name, None)
+            self._shown_markers.pop(name, None)
 
     def _add(self, marker: Any) -> None:
-        if marker.name not in self._shown and len(self._shown) >= MAX_INTERACTIVE_MARKERS:
+        if marker.name not in self._shown_markers and len(self._shown_markers) >= MAX_INTERACTIVE_MARKERS:
             raise CannotDrawError(f"too many interactive markers: the viewer draws at most {MAX_INTERACTIVE_MARKERS}")
-        self._shown[marker.name] = _Shown(marker, marker.header, marker.pose)
+        self._shown_markers[marker.name] = _Shown(marker, marker.header, marker.pose)
 
     def _draw(self, shown: _Shown) -> Drawing:
         marker, header, pose = shown

@@ -98,64 +98,66 @@ class MarkerSet:
 
     def __init__(self, mesh_url: MeshUrl) -> None:
         self._mesh_url = mesh_url
-        self._shown: dict[tuple[str, int], _Shown] = {}
-        self._drawn: dict[_Group, tuple[tuple[int, ...], Drawing]] = {}
+        self._shown_markers: dict[tuple[str, int], _Shown] = {}
+        self._drawings: dict[_Group, tuple[tuple[int, ...], Drawing]] = {}
 
     def snapshot(self) -> dict[tuple[str, int], _Shown]:
         """Return the current markers."""
-        return dict(self._shown)
+        return dict(self._shown_markers)
 
     def restore(self, snapshot: Mapping[tuple[str, int], _Shown]) -> None:
         """Replace all markers by those of a snapshot."""
-        self._shown = dict(snapshot)
+        self._shown_markers = dict(snapshot)
 
     def apply(self, message: Any, time: int) -> None:
         """Execute the actions of a Marker or MarkerArray received at a time in nanoseconds."""
         for marker in getattr(message, "markers", None) or ([message] if hasattr(message, "action") else []):
             key = (marker.ns, marker.id)
             if marker.action == _DELETE_ALL:
-                self._shown.clear()
+                self._shown_markers.clear()
             elif marker.action == _DELETE:
-                self._shown.pop(key, None)
+                self._shown_markers.pop(key, None)
             elif marker.action == _ADD:
-                if key not in self._shown and len(self._shown) >= MAX_MARKERS:
+                if key not in self._shown_markers and len(self._shown_markers) >= MAX_MARKERS:
                     self.expire(time)
-                if key not in self._shown and len(self._shown) >= MAX_MARKERS:
+                if key not in self._shown_markers and len(self._shown_markers) >= MAX_MARKERS:
                     raise CannotDrawError(f"too many markers: the viewer draws at most {MAX_MARKERS}")
                 size = (
-                    sum(_size(each.marker) for each in self._shown.values()) if _size(marker) > _MIN_LARGE_MARKER else 0
+                    sum(_size(each.marker) for each in self._shown_markers.values())
+                    if _size(marker) > _MIN_LARGE_MARKER
+                    else 0
                 )
                 if size + _size(marker) > MAX_NUMBERS:
                     raise CannotDrawError(
                         f"the markers have more than {MAX_NUMBERS} numbers and characters, which is the viewer's limit"
                     )
-                self._shown[key] = _shown(marker, time)
+                self._shown_markers[key] = _describe_shown(marker, time)
 
     def has_expired(self, time: int) -> bool:
         """Return whether the lifetime of a marker has ended."""
-        return any(shown.ends is not None and shown.ends < time for shown in list(self._shown.values()))
+        return any(shown.ends is not None and shown.ends < time for shown in list(self._shown_markers.values()))
 
     def expire(self, time: int) -> None:
         """Remove markers whose lifetime has ended."""
-        over = [key for key, shown in self._shown.items() if shown.ends is not None and shown.ends < time]
+        over = [key for key, shown in self._shown_markers.items() if shown.ends is not None and shown.ends < time]
         for key in over:
-            del self._shown[key]
+            del self._shown_markers[key]
 
     def draw(self, options: Options) -> list[Drawing]:
         """Return one drawing per group; unchanged groups return the same drawing as before."""
         groups: dict[_Group, list[Any]] = {}
-        rounded = _rounded_groups({shown.group for shown in list(self._shown.values())})
-        for shown in self._shown.values():
+        rounded = _rounded_groups({shown.group for shown in list(self._shown_markers.values())})
+        for shown in self._shown_markers.values():
             groups.setdefault(rounded.get(shown.group, shown.group), []).append(shown.marker)
         drawn = {}
         for group, markers in groups.items():
             members = tuple(id(marker) for marker in markers)
-            known = self._drawn.get(group)
+            known = self._drawings.get(group)
             if known is not None and known[0] == members:
                 drawn[group] = known
             else:
                 drawn[group] = (members, self._draw_group(group, markers, options))
-        self._drawn = drawn
+        self._drawings = drawn
         return [drawing for _, drawing in drawn.values()]
 
     def _draw_group(self, group: _Group, markers: list[Any], options: Options) -> Drawing:
@@ -194,7 +196,7 @@ class MarkerRenderer:
         self._set = MarkerSet(resources.mesh_url)
         self._applied = 0  # The key of the last message in the set.
         self._snapshots: list[tuple[int, dict[tuple[str, int], _Shown]]] = [(0, {})]
-        self._every = _SNAPSHOT_EVERY
+        self._snapshot_period = _SNAPSHOT_EVERY
 
     def draw(self, message: StampedMessage, time: int, at: int) -> list[Drawing]:
         """Return one drawing per group of visible markers."""
@@ -222,7 +224,7 @@ class MarkerRenderer:
                 raise UnfinishedError(f"reading earlier markers: {len(new) - count} messages left")
             self._set.apply(one.read(), one.time)
             self._applied = one.key
-            if one.key >= self._snapshots[-1][0] + self._every:
+            if one.key >= self._snapshots[-1][0] + self._snapshot_period:
                 self._take_snapshot(one)
 
     def _take_snapshot(self, message: StampedMessage) -> None:
@@ -230,7 +232,7 @@ class MarkerRenderer:
         self._snapshots.append((message.key, self._set.snapshot()))
         if len(self._snapshots) > MAX_SNAPSHOTS:
             del self._snapshots[1::2]
-            self._every *= 2
+            self._snapshot_period *= 2
 
 
 def _rounded_groups(groups: Iterable[_Group]) -> dict[_Group, _Group]:
@@ -272,7 +274,7 @@ def _interval_ends(stamps: NDArray[np.int64]) -> NDArray[np.int64]:
     return ends
 
 
-def _shown(marker: Any, time: int) -> _Shown:
+def _describe_shown(marker: Any, time: int) -> _Shown:
     lifetime = marker.lifetime.sec * SECOND + marker.lifetime.nanosec
     locked = bool(marker.frame_locked)
     # A locked marker moves with its frame, so its stamp does not matter and must not split groups.
