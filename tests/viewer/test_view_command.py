@@ -61,9 +61,12 @@ def test_the_demo_in_a_tab(open_tab):
 def test_view_answers_within_two_seconds_and_ends_on_ctrl_c(shared, open_tab):
     begin = time.monotonic()
     file = shared / "lab" / "rviz_config.yaml"
-    process, url = start("view", "-d", str(file), "--no-browser", "--port", "0")
+    process, url = start("view", "-d", str(file), "--use-sim-time", "--no-browser", "--port", "0")
     waited = time.monotonic() - begin
-    hello = open_tab(type("Viewer", (), {"url": url})).wait("hello")
+    tab = open_tab(type("Viewer", (), {"url": url}))
+    hello = tab.wait("hello", lambda hello: hello["mode"] == "live")
+    # No node publishes /clock, so the simulated time stands still; by default, the clock would be that of the system.
+    tab.wait("pulse", lambda pulse: pulse["clock"] == "paused")
     process.send_signal(signal.SIGINT)
     output, errors = process.communicate(timeout=20)
     assert (process.returncode, output, errors) == (0, "", "")

@@ -264,7 +264,9 @@ def assert_link_poses(page, robot, positions):
 def test_a_robot_from_a_file_is_drawn_with_its_meshes_and_moved_by_sliders(crane, view, open_page):
     buffer = coframe.Buffer(None)
     buffer.set("map", "post", coframe.Transform(), static=True)
-    page = open_page(view(buffer, robot=crane, fixed="map").url).drawn()
+    with (crane.parent / "meshes/boom.mtl").open("a") as materials:
+        materials.write("map_bump bumps.tif\n")
+    page = open_page(view(buffer, robot=crane, fixed="map").url, expected_errors=["404"]).drawn()
     page.until(f"{ROBOT}?.visible && {ROBOT}.loading === 0 && {ROBOT}.state === 'ok'")
     page.until(f"{ROBOT}.textures === 3")
     assert page.evaluate(f"{ROBOT}.meshes") == 5
@@ -277,6 +279,10 @@ def test_a_robot_from_a_file_is_drawn_with_its_meshes_and_moved_by_sliders(crane
         slide(page, joint, value)
     assert_link_poses(page, robot, positions)
     page.tab("displays")
+    page.wait(
+        lambda: "browsers cannot show 1 texture: bumps.tif" in page.text(".card[data-display=RobotModel] small"),
+        "the texture that is not drawn",
+    )
     page.raw.click("#body-displays .card:has-text('RobotModel') .card-title")
     page.raw.check("#body-displays .card:has-text('RobotModel') label:has-text('Collision Enabled') input")
     page.until(f"{ROBOT}.meshes === 6 && {ROBOT}.loading === 0")

@@ -30,6 +30,7 @@ const STALE_MATERIAL = new THREE.MeshLambertMaterial({
 
 /** Shinier surfaces would be white in the light of the scene. */
 const MAX_SHININESS = 20;
+const MAX_NAMED_TEXTURES = 3;
 
 export class RobotDisplay extends Display<"RobotModel"> {
   robot: RobotModel | null = null;
@@ -43,6 +44,8 @@ export class RobotDisplay extends Display<"RobotModel"> {
   /** The number of meshes being loaded. */
   loading = 0;
   private readonly problems: string[] = [];
+  /** The names of textures that cannot be drawn. */
+  private readonly missing = new Set<string>();
   private origin: readonly number[] = [0, 0, 0];
   /** The links whose transforms are no longer received. */
   private readonly staleLinks = new Set<string>();
@@ -160,6 +163,7 @@ export class RobotDisplay extends Display<"RobotModel"> {
     release(this.model);
     this.model.removeFromParent();
     this.problems.splice(0, Infinity, ...robot.problems);
+    this.missing.clear();
     this.loading = 0;
     this.kinematics = new Kinematics(robot);
     this.model = new THREE.Group();
@@ -199,7 +203,8 @@ export class RobotDisplay extends Display<"RobotModel"> {
     this.loading++;
     this.meshes
       .load(url, file)
-      .then(({ object, hasColors: colored }) => {
+      .then(({ object, hasColors: colored, missing }) => {
+        for (const texture of missing) this.missing.add(texture);
         if (colored) this.paint(object);
         else setMaterial(object, this.material(robot, shape));
         parent.add(object);
@@ -231,6 +236,8 @@ export class RobotDisplay extends Display<"RobotModel"> {
   /** Loads a texture; a surface without it is gray. */
   private addTexture(material: THREE.MeshPhongMaterial, url: string | null): void {
     const drop = (): void => {
+      if (url !== null) this.missing.add(url.split("/").pop() ?? url);
+      this.updateStatus();
       material.map = null;
       material.color.set(MISSING_TEXTURE);
       material.needsUpdate = true;
@@ -264,6 +271,9 @@ export class RobotDisplay extends Display<"RobotModel"> {
   }
 
   private updateStatus(): void {
+    const names = [...this.missing].slice(0, MAX_NAMED_TEXTURES).join(", ");
+    const textures = this.missing.size === 1 ? "1 texture" : `${this.missing.size} textures`;
+    this.note = names && `Drawn gray, because browsers cannot show ${textures}: ${names}`;
     const first = this.problems[0];
     const more = this.problems.length > 1 ? ` (and ${this.problems.length - 1} more)` : "";
     if (first) this.status = { state: "error", text: first + more };

@@ -39,7 +39,11 @@ export interface LoadedMesh {
   object: THREE.Object3D;
   /** Whether the file contains colors, as DAE and GLB files do; STL files do not. */
   hasColors: boolean;
+  /** The names of textures that cannot be drawn, such as TIFF and DDS images, which browsers do not decode. */
+  missing: readonly string[];
 }
+
+type ParsedMesh = Omit<LoadedMesh, "missing">;
 
 export class MeshError extends Error {}
 
@@ -59,8 +63,8 @@ export class Meshes {
       promise = fetchMesh(url, name);
       this.loadingMeshes.set(url, promise);
     }
-    const { object, hasColors: colored } = await promise;
-    return { object: object.clone(), hasColors: colored };
+    const { object, hasColors, missing } = await promise;
+    return { object: object.clone(), hasColors, missing };
   }
 }
 
@@ -112,12 +116,18 @@ async function fetchBytes(url: string, name: string): Promise<ArrayBuffer> {
 
 async function parse(bytes: ArrayBuffer, url: string, name: string): Promise<LoadedMesh> {
   const manager = new THREE.LoadingManager();
-  manager.setURLModifier((target) => (isAllowed(target) ? target : FORBIDDEN_URL));
+  const missing = new Set<string>();
+  manager.setURLModifier((target) => {
+    if (isAllowed(target)) return target;
+    missing.add(shortenName(target));
+    return FORBIDDEN_URL;
+  });
+  manager.onError = (target) => void (target === FORBIDDEN_URL || missing.add(shortenName(target)));
   const texturesLoaded = completion(manager);
   const loaded = await parseFormat(bytes, url, name, manager);
   await texturesLoaded();
   dropEmptyTextures(loaded.object);
-  return loaded;
+  return { ...loaded, missing: [...missing] };
 }
 
 /** Returns a function that waits until all requests of a manager have succeeded or failed. */
@@ -137,7 +147,7 @@ async function parseFormat(
   url: string,
   name: string,
   manager: THREE.LoadingManager,
-): Promise<LoadedMesh> {
+): Promise<ParsedMesh> {
   const kind = /\.([a-z0-9]+)$/i.exec(name.split(/[?#]/)[0] ?? "")?.[1]?.toLowerCase() ?? "";
   // The server provides files in the same folder below the URL of the mesh.
   const folder = url.startsWith("data:") ? "" : `${url}/`;
@@ -180,7 +190,7 @@ async function parseObj(
   name: string,
   folder: string,
   manager: THREE.LoadingManager,
-): Promise<LoadedMesh> {
+): Promise<ParsedMesh> {
   refuse(objProblem(source), name);
   const loader = new OBJLoader(manager);
   const library = /^mtllib[ \t]+(.+?)\s*$/m.exec(source)?.[1];
@@ -225,7 +235,7 @@ async function parseGltf(
   name: string,
   folder: string,
   manager: THREE.LoadingManager,
-): Promise<LoadedMesh> {
+): Promise<ParsedMesh> {
   refuse(gltfProblem(gltfJson(bytes)), name);
   const loader = new GLTFLoader(manager);
   // The usual one decodes images before their size can be checked.
