@@ -77,7 +77,7 @@ def messages(language: str, domain: str) -> Mapping[str, str]:
     try:
         return Catalogue(io.StringIO(path.read_text(encoding="utf-8"))).messages  # type: ignore[arg-type]
     except (ValueError, SyntaxError) as error:
-        raise CourseError(f"The catalogue {path} is damaged: {error}", hint="Check it with msgfmt --check.") from None
+        raise CourseError(f"The catalogue {path} is damaged: {error}", hint="Check it with msgfmt -c.") from None
 
 
 def languages() -> list[str]:

@@ -52,7 +52,7 @@ class TableFeed(PanelFeed):
             return
         if watched.messages is None and now >= self._late_due:
             self._late_due = now + _LATE_PERIOD
-            watched.open()
+            watched.open_topic()
         if watched.messages is None:
             why = watched.missing_reason()
             yield Update("table", (id(watched), why), partial(self._encode, watched, "waiting", why, [], []))
@@ -124,7 +124,7 @@ class StatesFeed(PanelFeed):
         if now >= self._late_due:
             self._late_due = now + _LATE_PERIOD
             for one in shown.values():
-                one.open()
+                one.open_topic()
         self._read(now)
         for number, one in shown.items():
             yield from self._changes(number, one)

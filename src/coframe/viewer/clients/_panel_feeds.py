@@ -114,7 +114,7 @@ class InspectionFeed(PanelFeed):
             return
         if watched.messages is None and now >= self._late_due:
             self._late_due = now + _LATE_PERIOD
-            watched.open()
+            watched.open_topic()
         self._read(watched)
         if self._inspection is not None and self._inspection.done():
             found, self._inspection = self._inspection.result(), None

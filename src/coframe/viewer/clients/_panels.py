@@ -60,9 +60,9 @@ class WatchedTopic:
         self.messages: TopicMessages | None = None
         self.problem = ""
         self._viewer = viewer
-        self.open()
+        self.open_topic()
 
-    def open(self) -> None:
+    def open_topic(self) -> None:
         """Open the topic if it now exists."""
         if self.messages is None:
             try:
@@ -115,15 +115,15 @@ class ShownStates:
             self.problem = f"{error}. {error.hint}".strip()
         else:
             self.watched = WatchedTopic(viewer, self._field.topic)
-            self.open()
+            self.open_topic()
 
-    def open(self) -> None:
+    def open_topic(self) -> None:
         """Begin to read the topic if it now exists."""
         from coframe.viewer.panels.states import StateHistory  # noqa: PLC0415 - see above
 
         if self.watched is None or self.history is not None:
             return
-        self.watched.open()
+        self.watched.open_topic()
         if self.watched.messages is not None:
             self.history = StateHistory(self._field, self.watched.messages)
 
