@@ -82,7 +82,8 @@ class BackwardJumps:
             if len(self._series) >= MAX_SERIES:
                 return 0
             series = self._series[key] = _Series()
-        series.newest = max(series.newest, newest)
+        if newest > series.newest:  # However late the queue of stamps is, the buffer receives new ones.
+            series.add_new(newest, now)
         if stamp >= series.newest - _TOLERANCE:
             series.add_new(stamp, now)
             return 0
