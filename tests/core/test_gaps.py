@@ -159,9 +159,12 @@ def run(*words):
 
 
 def test_commands_report_gaps_and_have_an_option_for_them(bag):
+    skipped = "19 of 41 poses of 'base' in 'map' lie between samples of 'base' that are up to 2 s apart, which is more"
     code, text, errors = run("trajectory", bag, "map", "base", "--rate", 10)
-    assert (code, len(text.splitlines())) == (0, 41)
-    assert "19 of 41 poses of 'base' in 'map' are interpolated over gaps of up to 2 s" in errors
+    assert (code, len(text.splitlines())) == (0, 22)
+    assert f"{skipped} than 500 ms; they are omitted (--max-gap changes this limit)" in errors
+    code, text, errors = run("trajectory", bag, "map", "base", "--rate", 10, "--max-gap", "2s")
+    assert (code, len(text.splitlines()), errors) == (0, 41, "")
     code, text, errors = run("trajectory", bag, "map", "base", "--rate", 10, "--max-gap", "200ms")
     assert (code, len(text.splitlines())) == (0, 22)
     assert "no transform, or none without a gap of more than 200 ms, at 19 of 41 times" in errors
@@ -179,14 +182,40 @@ def test_commands_report_gaps_and_have_an_option_for_them(bag):
     assert (json.loads(text)["gap_ns"], json.loads(text)["outside_ns"]) == (2 * SECOND, 0)
 
 
+def test_poses_between_sparse_detections_are_not_invented(tmp_path):
+    """A tag that is seen once a second has one pose per detection; a sentence describes the others."""
+    rows = []
+    for i in range(101):
+        stamp = int(at(5 * i)[0])
+        rows.append(("/tf", stamp, recordings.cdr("map", "base", coframe.Transform([i / 100, 0.0, 0.0]), stamp)))
+        if i % 20 == 0:
+            rows.append(("/tf", stamp, recordings.cdr("base", "tag36h11:0", coframe.Transform([1.0, 0, 0]), stamp)))
+    bag = recordings.write_mcap(tmp_path / "tags.mcap", rows=rows)
+    code, text, errors = run("trajectory", bag, "map", "tag36h11:0")
+    assert (code, len(text.splitlines())) == (0, 6)
+    assert "95 of 101 poses of 'tag36h11:0' in 'map' lie between samples of 'tag36h11:0' that are up to 1 s" in errors
+    code, text, errors = run("table", bag, "tag=map:tag36h11:0.x", "base=map:base.x", "--rate", "20")
+    values = [line.split(",")[1] for line in text.splitlines()[1:]]
+    assert (code, len(values), sum(bool(value) and value != "nan" for value in values)) == (0, 101, 6)
+    assert "95 poses of tag lie between transforms that are more than 500 ms apart; they are NaN" in errors
+    assert "base" not in errors
+    code, text, errors = run("table", bag, "tag=map:tag36h11:0.x", "--rate", "20", "--max-gap", "1s")
+    assert (code, errors, "nan" in text) == (0, "", False)
+    code, text, errors = run("table", bag, "map:tag36h11:0", "--rate", "20", "--start", "+0.1s", "--stop", "+0.8s")
+    assert (code, "Its transforms are too far apart" in errors) == (1, True)
+    for words in (["map", "tag36h11:0"], ["-c", "map:tag36h11:0", "--rate", "20"]):
+        code, text, errors = run("batch", *words, bag, "-o", tmp_path / f"poses{len(words)}")
+        assert (code, "95" in errors) == (0, True), errors
+
+
 def test_a_trajectory_file_has_the_gap_of_each_pose_on_request(bag, tmp_path):
-    _, text, _ = run("trajectory", bag, "map", "base", "--rate", 10, "--format", "csv", "--validity")
+    _, text, _ = run("trajectory", bag, "map", "base", "--rate", 10, "--format", "csv", "--validity", "--max-gap", "2s")
     header, *rows = (line.split(",") for line in text.splitlines())
     assert header[-2:] == ["gap_ns", "outside_ns"]
     # Every tenth sample is at the time of a pose.
     assert [int(row[-2]) for row in rows] == [2 * SECOND if GAP[0] < 10 * i < GAP[1] else 0 for i in range(41)]
     for name in ("a.npz", "a.csv"):
-        assert run("trajectory", bag, "map", "base", "-o", tmp_path / name, "--validity")[0] == 0
+        assert run("trajectory", bag, "map", "base", "-o", tmp_path / name, "--validity", "--max-gap", "2s")[0] == 0
         read = read_trajectory(tmp_path / name)
         assert np.array_equal(read.stamps, at(*(i for i in range(401))))
     with np.load(tmp_path / "a.npz") as data:

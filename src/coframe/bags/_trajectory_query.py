@@ -11,7 +11,7 @@ import numpy as np
 from coframe import time
 from coframe.bags.namespaces import ALL_TRANSFORMS, TransformChoice
 from coframe.bags.time_points import parse_time_point
-from coframe.buffer.gaps import gap_limit, long_gap_text
+from coframe.buffer.gaps import gap_limit, long_gap_text, skipped_gap_text
 from coframe.errors import RecordingError
 
 if TYPE_CHECKING:
@@ -117,9 +117,10 @@ class TrajectoryQuery:
             yield self._look_up_poses(recording, stamps[start : start + BATCH])
 
     def gap_text(self, recording: Recording, stamps: NDArray[np.int64]) -> str:
-        """Return a message about poses in unusually long gaps, or "" if there are none or `max_gap` is set."""
-        if self.max_gap is not None:
-            return ""
+        """Return a message about poses in unusually long gaps, or in those longer than `max_gap`; "" for none."""
+        if (limit := gap_limit(self.max_gap, self.on_gap)) is not None:
+            buffer = recording.buffer
+            return "" if self.on_gap == "raise" else skipped_gap_text(buffer, self.target, self.source, stamps, limit)
         return long_gap_text(recording.buffer, self.target, self.source, stamps)
 
     def validity_of(self, recording: Recording, poses: Transform) -> dict[str, NDArray[np.int64]]:

@@ -213,7 +213,7 @@ class _TrajectoryRun:
         stamps = np.zeros(1, dtype=np.int64) if poses.stamps is None else np.atleast_1d(poses.stamps)
         name = f"{self._query.target}:{self._query.source}"
         self._omissions = omissions_of(name, "no transform", ~np.isin(wanted, stamps), wanted)
-        self._gaps = self._query.gap_text(self._recording, stamps)
+        self._gaps = self._query.gap_text(self._recording, wanted)
         values = np.concatenate([np.atleast_2d(poses.translation), np.atleast_2d(poses.quaternion)], axis=1)
         columns = {"bag": _bag_column(pyarrow, self._recording, len(values)), "stamp_ns": stamps}
         columns |= dict(zip(POSE_COLUMNS, values.T.copy(), strict=True))

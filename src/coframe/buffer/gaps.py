@@ -14,7 +14,7 @@ from coframe._base_error import CoframeWarning
 from coframe._output.formatting import count, duration
 from coframe.analysis.liveness import usual_gap, usual_period
 from coframe.errors import ExtrapolationException, TransformException
-from coframe.time import duration_ns
+from coframe.time import MILLISECOND, duration_ns
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "GAP_CHOICES",
+    "MAX_GAP",
     "OnGap",
     "Validity",
     "check_gap",
@@ -33,11 +34,14 @@ __all__ = [
     "in_long_gap",
     "long_gap_text",
     "note_gaps",
+    "skipped_gap_text",
     "validity",
 ]
 
 OnGap: TypeAlias = Literal["raise", "nan", "omit"]
 GAP_CHOICES = ("raise", "nan", "omit")
+MAX_GAP = 500 * MILLISECOND
+"""The longest interval between two transforms over which commands that write poses interpolate, in nanoseconds."""
 _MIN_STAMP, _MAX_STAMP = np.iinfo(np.int64).min + 1, np.iinfo(np.int64).max
 _MIN_INTERVALS = 10  # With fewer, the usual period of an edge is not known.
 
@@ -139,6 +143,20 @@ def long_gap_text(buffer: _core.Buffer, target: str, source: str, stamps: NDArra
     return (
         f"{np.count_nonzero(inside)} of {count(len(stamps), 'pose')} of {source!r} in {target!r} are interpolated over "
         f"gaps of up to {duration(longest.end - longest.start)} without a sample of {longest.child!r}"
+    )
+
+
+def skipped_gap_text(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64], limit: int) -> str:
+    """Return a message about times that lie in gaps longer than a limit, or "" if there are none."""
+    found = validity(buffer, target, source, stamps)
+    inside = found.gaps > limit
+    if not inside.any():
+        return ""
+    longest = int(np.argmax(found.gaps))
+    return (
+        f"{np.count_nonzero(inside)} of {count(len(stamps), 'pose')} of {source!r} in {target!r} lie between samples "
+        f"of {found.edges[longest]!r} that are up to {duration(int(found.gaps[longest]))} apart, which is more than "
+        f"{duration(limit)}"
     )
 
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe import quaternion
+from coframe.buffer.gaps import MAX_GAP
 from coframe.calibration.estimation import calibrate_rigid
 from coframe.errors import CalibrationError, CoframeError, TransformException
 from coframe.trajectories import resample
@@ -150,7 +151,7 @@ def measure_rigid(recording: Recording, first: str, second: str) -> MeasuredMoun
         CalibrationError: The motion does not show the mount.
         CoframeError: A frame does not exist.
     """
-    one, other = (recording.trajectory(pair, max_gap="500ms") for pair in (first, second))
+    one, other = (recording.trajectory(pair, max_gap=MAX_GAP) for pair in (first, second))
     found = calibrate_rigid(one, other)
     if len(found.hidden) or not found.is_rotation_observable:
         raise CalibrationError(

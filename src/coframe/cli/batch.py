@@ -4,33 +4,34 @@
 from __future__ import annotations
 
 import itertools
+from collections import Counter
 from typing import TYPE_CHECKING, cast
 
 import click
 
-from coframe._output.formatting import count
+from coframe._output.formatting import count, duration
 from coframe.bags import TrajectoryQuery, query_recordings
 from coframe.bags.batch import ENGINES
 from coframe.bags.formats import file_kinds
 from coframe.bags.namespaces import TransformChoice
 from coframe.bags.tables import METHODS, TableQuery
-from coframe.buffer.gaps import GAP_CHOICES
+from coframe.buffer.gaps import GAP_CHOICES, MAX_GAP
 from coframe.cli.declaration import PATH, RECORDING, Command, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     NonNegativeDuration,
     PositiveDuration,
-    max_gap_option,
     namespace_option,
     recorded_listener_options,
     validity_option,
 )
 from coframe.cli.output import fail, printable, warn
+from coframe.cli.pose_gaps import limit_pose_gaps, pose_names, table_gap_option
 from coframe.cli.progress import item_progress
 from coframe.errors import RecordingError
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Container, Sequence
     from pathlib import Path
 
     from coframe._sources.sources import Readable
@@ -91,7 +92,7 @@ __all__ = ["batch"]
     type=click.IntRange(min=1),
     help="Number of recordings to read in parallel. [default: number of CPU cores]",
 )
-@max_gap_option
+@table_gap_option
 @click.option(
     "--on-gap",
     metavar="MODE",
@@ -146,18 +147,20 @@ def batch(
     try:
         choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
         if columns:
-            query = TableQuery(
-                columns,
-                at=at or stamps_of,
-                rate=rate,
-                start=start,
-                stop=stop,
-                method=cast("Method", method),
-                tolerance=tolerance,
-                max_gap=max_gap,
-                on_gap=cast("OnGap", on_gap or "nan"),
-                covariance=covariance,
-                transforms=choice,
+            query = limit_pose_gaps(
+                TableQuery(
+                    columns,
+                    at=at or stamps_of,
+                    rate=rate,
+                    start=start,
+                    stop=stop,
+                    method=cast("Method", method),
+                    tolerance=tolerance,
+                    max_gap=max_gap,
+                    on_gap=cast("OnGap", on_gap or "nan"),
+                    covariance=covariance,
+                    transforms=choice,
+                )
             )
         else:
             query = TrajectoryQuery(
@@ -168,7 +171,7 @@ def batch(
                 start,
                 stop,
                 choice,
-                max_gap=None if max_gap is None else int(max_gap),
+                max_gap=int(max_gap or MAX_GAP),
                 on_gap=cast("OnGap", on_gap or "omit"),
                 validity=validity,
             )
@@ -181,6 +184,8 @@ def batch(
         bad = [one for one in answers if one.error]
         for one in answers:
             _print_problems(one, "value" if columns else "transform")
+            if isinstance(query, TableQuery) and max_gap is None:
+                _print_skipped_poses(one, pose_names(query))
         kept = sum(one.kept for one in answers)
         reused = f", {kept} of them from an earlier run" if kept else ""
         good = len(answers) - len(bad)
@@ -206,3 +211,15 @@ def _print_problems(one: QueryResult, what: str) -> None:
         warn(f"{one.bag}: no {what} at {count(one.missing, 'time')}; omitted")
     for problem in one.problems:
         warn(f"{one.bag}: {problem}")
+
+
+def _print_skipped_poses(one: QueryResult, poses: Container[str]) -> None:
+    rows: Counter[str] = Counter()
+    for each in one.omitted:
+        if each.column in poses:
+            rows[each.column] += each.rows
+    for name, number in rows.items():
+        warn(
+            f"{one.bag}: no pose of {name} at {count(number, 'time')}: poses are interpolated between transforms up to "
+            f"{duration(MAX_GAP)} apart (--max-gap changes this limit)"
+        )

@@ -21,6 +21,7 @@ from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import Duration, PositiveDuration, bag_argument
 from coframe.cli.output import fail, fail_to_write, printable, warn
 from coframe.cli.plot import check_figure_package, save_figure
+from coframe.cli.pose_gaps import pose_gap_option
 from coframe.cli.recordings import open_recording
 from coframe.cli.trajectory_arguments import frame_pair, read_frames
 from coframe.plotting import FIGURE_FORMATS, Figure, Series
@@ -59,13 +60,7 @@ def _options(function: Callable[..., None]) -> Callable[..., None]:
             help="Write the mount, a plot of the residuals, or a copy of BAG with the mount (.mcap): "
             f"{', '.join(_SUFFIXES)}; repeatable.",
         ),
-        click.option(
-            "--max-gap",
-            metavar="DURATION",
-            type=PositiveDuration,
-            default="500ms",
-            help="Maximum interval between two transforms of a recording for interpolation.",
-        ),
+        pose_gap_option,
         click.option(
             "--t-offset",
             metavar="DURATION",

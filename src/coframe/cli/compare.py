@@ -26,6 +26,7 @@ from coframe.cli.options import (
 )
 from coframe.cli.output import fail, fail_to_write, printable, warn
 from coframe.cli.plot import check_figure_package, save_figure
+from coframe.cli.pose_gaps import pose_gap_option
 from coframe.cli.trajectory_arguments import TRAJECTORY_FORMS, read_argument
 from coframe.plotting import FIGURE_FORMATS, Figure, Series
 from coframe.time import MILLISECOND
@@ -78,13 +79,7 @@ _SUFFIXES = tuple(f".{kind}" for kind in (*FIGURE_FORMATS, "json", "csv"))
     default="0s",
     help="Add this to the stamps of the estimate, e.g. -35ms. auto: the offset with the smallest error.",
 )
-@click.option(
-    "--max-gap",
-    metavar="DURATION",
-    type=PositiveDuration,
-    default="500ms",
-    help="Maximum interval between two transforms of a recording for interpolation.",
-)
+@pose_gap_option
 @click.option(
     "--project",
     metavar="PLANE",

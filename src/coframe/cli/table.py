@@ -4,31 +4,33 @@
 from __future__ import annotations
 
 import sys
+from collections import Counter
 from typing import TYPE_CHECKING, cast
 
 import click
+import numpy as np
 
-from coframe._output.formatting import count
+from coframe._output.formatting import count, duration
 from coframe.bags.namespaces import TransformChoice
 from coframe.bags.tables import METHODS, TABLE_FORMATS, TableQuery, table_format, write_table
-from coframe.buffer.gaps import GAP_CHOICES
+from coframe.buffer.gaps import GAP_CHOICES, MAX_GAP
 from coframe.cli.declaration import PATH, Command, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     NonNegativeDuration,
     PositiveDuration,
     bag_argument,
-    max_gap_option,
     namespace_option,
     recorded_listener_options,
 )
 from coframe.cli.output import fail, fail_to_write, printable, warn
+from coframe.cli.pose_gaps import GAP_EFFECTS, limit_pose_gaps, pose_names, table_gap_option
 from coframe.cli.progress import item_progress
 from coframe.cli.recordings import open_recording, parse_time
 from coframe.errors import RecordingError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Container, Iterator
     from pathlib import Path
 
     from coframe._sources.sources import Readable
@@ -77,7 +79,7 @@ __all__ = ["table"]
     type=NonNegativeDuration,
     help="Maximum time between a row and a message, e.g. 20ms. [default: no limit]",
 )
-@max_gap_option
+@table_gap_option
 @click.option(
     "--on-gap",
     metavar="MODE",
@@ -117,19 +119,21 @@ def table(
     choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
     try:
         kind = format_ or ("csv" if output is None else table_format(output))
-        query = TableQuery(
-            columns,
-            at=at,
-            rate=rate,
-            start=start,
-            stop=stop,
-            method=cast("Method", method),
-            tolerance=tolerance,
-            max_gap=max_gap,
-            on_gap=cast("OnGap", on_gap),
-            covariance=covariance,
-            validity=not no_validity,
-            transforms=choice,
+        query = limit_pose_gaps(
+            TableQuery(
+                columns,
+                at=at,
+                rate=rate,
+                start=start,
+                stop=stop,
+                method=cast("Method", method),
+                tolerance=tolerance,
+                max_gap=max_gap,
+                on_gap=cast("OnGap", on_gap),
+                covariance=covariance,
+                validity=not no_validity,
+                transforms=choice,
+            )
         )
     except RecordingError as error:
         fail(str(error), error.hint, code=2)
@@ -144,6 +148,8 @@ def table(
 
 def _write(recording: Recording, query: TableQuery, output: Path | None, kind: str) -> None:
     omitted = 0
+    skipped: Counter[str] = Counter()
+    limited = set() if query.max_gap is not None else pose_names(query)
 
     def parts() -> Iterator[Table]:
         nonlocal omitted
@@ -151,6 +157,7 @@ def _write(recording: Recording, query: TableQuery, output: Path | None, kind: s
         with item_progress("writing", None) as progress:
             for part in query.batches(recording, report=warn):
                 omitted += part.omitted
+                skipped.update(_skipped_poses(part, limited))
                 written += len(part)
                 yield part
                 progress(written)
@@ -163,5 +170,20 @@ def _write(recording: Recording, query: TableQuery, output: Path | None, kind: s
         fail_to_write(output, error)
     if omitted:
         warn(f"{count(omitted, 'row')} without a value omitted")
+    for name, number in skipped.items():
+        warn(
+            f"{count(number, 'pose')} of {name} lie between transforms that are more than "
+            f"{duration(MAX_GAP)} apart; {GAP_EFFECTS['nan']} (--max-gap changes this limit)"
+        )
     if output is not None:
         print(printable(f"{output}: {count(rows, 'row')}"))
+
+
+def _skipped_poses(part: Table, poses: Container[str]) -> dict[str, int]:
+    """Return how many poses of each frame are missing because of the default limit of ``--max-gap``."""
+    gaps = {
+        each.name: int(np.count_nonzero(~each.valid & (each.gap > MAX_GAP)))
+        for each in part.columns
+        if each.gap is not None and each.name in poses
+    }
+    return {name: number for name, number in gaps.items() if number}

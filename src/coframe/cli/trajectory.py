@@ -17,13 +17,13 @@ from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     PositiveDuration,
     bag_argument,
-    max_gap_option,
     namespace_option,
     on_gap_option,
     recorded_listener_options,
     validity_option,
 )
 from coframe.cli.output import fail, fail_to_write, warn
+from coframe.cli.pose_gaps import GAP_EFFECTS, pose_gap_option
 from coframe.cli.progress import item_progress
 from coframe.cli.recordings import open_recording, parse_time
 from coframe.trajectories import FORMATS, format_of, write_trajectory
@@ -65,7 +65,7 @@ __all__ = ["trajectory"]
 @click.option("--stamps-of", metavar="TOPIC", help="Write a pose at the stamp of each message of this topic.")
 @click.option("--start", metavar="TIME", help="Start time, in the same format as `lookup --at`.")
 @click.option("--stop", metavar="TIME", help="End time, in the same format as --start.")
-@max_gap_option
+@pose_gap_option
 @on_gap_option
 @validity_option
 @namespace_option
@@ -80,7 +80,7 @@ def trajectory(
     stamps_of: str | None,
     start: str | None,
     stop: str | None,
-    max_gap: PositiveDuration | None,
+    max_gap: PositiveDuration,
     on_gap: str,
     validity: bool,
     namespace: str | None,
@@ -95,7 +95,7 @@ def trajectory(
     """
     kind = _format(output, format_, with_columns=validity)
     if source is None:
-        _check_topic(target, {"--rate": rate, "--stamps-of": stamps_of, "--max-gap": max_gap, "--validity": validity})
+        _check_topic(target, {"--rate": rate, "--stamps-of": stamps_of, "--validity": validity})
         with run_to_completion(), open_recording(bag, ALL_TRANSFORMS) as recording:
             _check_times(recording, start, stop)
             _write_topic(recording.trajectory(target, start=start, stop=stop), output, kind)
@@ -111,7 +111,7 @@ def trajectory(
         _check_times(recording, start, stop)
         stamps = query.stamps(recording)
         if text := query.gap_text(recording, stamps):
-            warn(f"{text}; use --max-gap 200ms to omit them")
+            warn(f"{text}; {GAP_EFFECTS[on_gap]} (--max-gap changes this limit)")
         missing, first, last = 0, int(stamps[-1]), int(stamps[0])
 
         def batches() -> Iterator[Transform]:
@@ -131,7 +131,7 @@ def trajectory(
             if isinstance(error, BrokenPipeError):
                 raise
             fail_to_write(output, error)
-        _print_missing(missing, len(stamps), max_gap)
+        _print_missing(missing, len(stamps), max_gap if text else None)
         if output is not None:
             poses = count(len(stamps) - missing, "pose")
             print(

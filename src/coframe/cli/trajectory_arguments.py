@@ -15,9 +15,9 @@ from coframe._output.formatting import count, duration
 from coframe._sources.sources import as_source
 from coframe._sources.urls import is_url
 from coframe.bags.formats import has_known_suffix
+from coframe.buffer.gaps import MAX_GAP
 from coframe.cli.output import fail, warn
 from coframe.cli.recordings import open_recording
-from coframe.time import MILLISECOND
 from coframe.trajectories import read_trajectory
 from coframe.trajectories.formats import TRAJECTORY_SUFFIXES
 
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from coframe.transform.transform import Transform
 
 __all__ = [
-    "MAX_GAP",
     "TRAJECTORY_FORMS",
     "frame_pair",
     "is_trajectory_file",
@@ -54,10 +53,6 @@ def is_trajectory_file(file: Readable) -> bool:
 def read_file(file: Readable) -> Transform:
     """Return the trajectory in a file; print on stderr what is suspicious about it."""
     return read_trajectory(file, report=warn)
-
-
-MAX_GAP = 500 * MILLISECOND
-"""The longest interval between two transforms over which poses that are compared are interpolated, in nanoseconds."""
 
 
 def read_argument(text: str, choice: TransformChoice, max_gap: int = MAX_GAP) -> Transform:

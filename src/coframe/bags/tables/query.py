@@ -311,9 +311,11 @@ class _Evaluation:
         return replace(kept, omitted=int((~complete).sum()))
 
     def _missing_hint(self, missing: FieldColumn | PoseColumn) -> str:
-        if isinstance(missing, FieldColumn) and missing.span is not None:
+        if missing.span is not None:
             first, last = missing.span
             if first <= int(self._times.max()) and int(self._times.min()) <= last:
+                if isinstance(missing, PoseColumn):
+                    return "Its transforms are too far apart: increase max_gap."
                 return "Increase tolerance or max_gap, or choose another method."
         return "Their stamps may be on different clocks."
 
