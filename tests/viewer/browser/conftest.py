@@ -19,6 +19,7 @@ from chromium import chromium
 import coframe
 
 websockets = pytest.importorskip("websockets.sync.client", reason="the viewer needs websockets")
+playwright = pytest.importorskip("playwright.sync_api", reason="the page is shown by Playwright")
 
 SETTLING_TIMEOUT = 5.0  # seconds
 TIMEOUT = 20.0  # seconds; the machine may be busy
@@ -73,7 +74,15 @@ class Page:
 
     def until(self, script, argument=None):
         """Wait until a JavaScript expression is true, and return its value."""
-        return self.wait(lambda: self.evaluate(script, argument), script)
+        return self.wait(lambda: self._evaluate_if_started(script, argument), script)
+
+    def _evaluate_if_started(self, script, argument):
+        try:
+            return self.evaluate(script, argument)
+        except playwright.Error as error:
+            if "coframe is not defined" in str(error):  # A busy machine has not run the page's program yet.
+                return None
+            raise
 
     def wait(self, condition, what="a condition"):
         """Wait until a Python function returns a true value, and return the value."""
