@@ -14,6 +14,11 @@ from coframe._files.complete_files import write_complete
 from coframe.analysis.static_command import static_command
 from coframe.bags import Writer
 from coframe.calibration._values import OPENGL_TO_OPTICAL
+from coframe.calibration.formats.colmap import colmap_files
+from coframe.calibration.formats.hand_eye import hand_eye_text
+from coframe.calibration.formats.kitti import kitti_text
+from coframe.calibration.formats.nuscenes import nuscenes_files
+from coframe.calibration.formats.opencv_storage import opencv_text
 from coframe.errors import CalibrationError
 from coframe.messages import find, serialize
 from coframe.transform.transform import Transform
@@ -41,7 +46,7 @@ def write(rig: Rig, path: str | os.PathLike[str], format_: str | None = None) ->
 
     Args:
         rig: The calibration.
-        path: The file. Its suffix determines the format, if it has only one.
+        path: The file, or the folder for COLMAP and nuScenes. Its suffix determines the format, if it has only one.
         format_: One of :data:`WRITABLE_FORMATS`.
 
     Raises:
@@ -55,6 +60,11 @@ def write(rig: Rig, path: str | os.PathLike[str], format_: str | None = None) ->
     chosen = format_ or (fitting[0] if len(fitting) == 1 else "")
     if chosen == "mcap":
         _write_recording(rig, file)
+    elif chosen in _FOLDERS:
+        texts = _FOLDERS[chosen](rig)
+        file.mkdir(parents=True, exist_ok=True)
+        for name, text in texts.items():
+            write_complete(file / name, text.encode())
     elif chosen in _WRITERS:
         write_complete(file, _WRITERS[chosen].text(rig).encode())
     else:
@@ -219,8 +229,12 @@ _WRITERS = {
     "camera_info": _Writer(".yaml", _camera_info),
     "nerf": _Writer(".json", _nerf),
     "commands": _Writer(".sh", _commands),
+    "kitti": _Writer(".txt", kitti_text),
+    "opencv": _Writer(".yaml", opencv_text),
+    "easy_handeye2": _Writer(".calib", hand_eye_text),
 }
-WRITABLE_FORMATS = (*_WRITERS, "mcap")
+_FOLDERS = {"colmap": colmap_files, "nuscenes": nuscenes_files}
+WRITABLE_FORMATS = (*_WRITERS, *_FOLDERS, "mcap")
 """What :func:`write` can write: a robot description, files of other programs, shell commands, a recording."""
 
 

@@ -13,12 +13,12 @@ from coframe.calibration.rig import Rig
 from coframe.errors import CalibrationError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     from coframe.cameras import CameraModel
     from coframe.transform.transform import Transform
 
-__all__ = ["CONVENTION", "read_binary_files", "read_text_files"]
+__all__ = ["CONVENTION", "colmap_files", "read_binary_files", "read_text_files"]
 
 CONVENTION = (
     "an image's pose transforms points from the world into the camera: quaternion w, x, y, z, then the translation; "
@@ -182,3 +182,43 @@ def _mount(place: Place, numbers: Sequence[float], name: str) -> Transform:
 
 def _rig(mounts: list[Transform], cameras: dict[int, CameraModel]) -> Rig:
     return Rig(tuple(mounts), {f"camera{number}": model for number, model in cameras.items()}, {}, "COLMAP", CONVENTION)
+
+
+def colmap_files(rig: Rig) -> dict[str, str]:
+    """Return cameras.txt, images.txt and an empty points3D.txt: one image for each camera, with the name of its frame.
+
+    Raises:
+        CalibrationError: There are no cameras with a pose, or COLMAP has no model for a lens.
+    """
+    with_pose = {name: model for name, model in rig.cameras.items() if model.frame in rig.frames}
+    if not with_pose:
+        raise CalibrationError("a reconstruction of COLMAP needs cameras whose frames have a pose")
+    cameras, images = list[str](), list[str]()
+    for number, (name, model) in enumerate(with_pose.items(), 1):
+        kind, rest = _model_of(name, model)
+        k = model.k
+        values = [k[0, 0], k[1, 1], k[0, 2] + 0.5, k[1, 2] + 0.5, *rest]
+        cameras.append(f"{number} {kind} {model.width} {model.height} {_words(values)}")
+        pose = rig.lookup(model.frame, rig.frames[0])
+        numbers = _words([*np.roll(pose.quaternion, 1), *pose.translation])
+        images += [f"{number} {numbers} {number} {model.frame}", ""]
+    texts = {"cameras.txt": cameras, "images.txt": images, "points3D.txt": []}
+    return {name: "\n".join(["# Written by coframe", *lines, ""]) for name, lines in texts.items()}
+
+
+def _model_of(name: str, model: CameraModel) -> tuple[str, list[float]]:
+    lens, d = model.lens.name, list(model.lens.coefficients)
+    if not any(d) and lens == "plumb_bob":
+        return "PINHOLE", []
+    if lens == "plumb_bob" and not any(d[4:]):
+        return "OPENCV", (d + [0.0] * 4)[:4]
+    if lens in {"plumb_bob", "rational_polynomial"} and not any(d[8:]):
+        return "FULL_OPENCV", (d + [0.0] * 8)[:8]
+    names = {"equidistant": "OPENCV_FISHEYE", "fov": "FOV", "eucm": "EUCM"}
+    if lens not in names:
+        raise CalibrationError(f"COLMAP has no model for the lens of {name}: {lens} with {len(d)} coefficients")
+    return names[lens], d
+
+
+def _words(values: Iterable[float]) -> str:
+    return " ".join(repr(float(value) + 0.0) for value in values)

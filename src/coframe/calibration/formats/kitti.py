@@ -10,17 +10,21 @@ import numpy as np
 
 from coframe.calibration._values import Place, camera
 from coframe.calibration.rig import Rig
+from coframe.errors import CalibrationError
+from coframe.transform.transform import Transform
 
 if TYPE_CHECKING:
-    from coframe.cameras import CameraModel
-    from coframe.transform.transform import Transform
+    from numpy.typing import NDArray
 
-__all__ = ["CONVENTION", "is_kitti", "parse_kitti", "read_kitti"]
+    from coframe.cameras import CameraModel
+
+__all__ = ["CONVENTION", "is_kitti", "kitti_text", "parse_kitti", "read_kitti"]
 
 CONVENTION = (
     "R and T (Tr) transform points: from velo into cam0, from imu into velo, and from cam0 into camera xx; "
     "P of odometry projects points of the rectified cam0; optical axes, meters"
 )
+_MAX_TURN = 1e-6  # of the axes of rectified cameras
 _LINE = re.compile(r"(\w+):?\s+(.*)")
 
 
@@ -109,3 +113,32 @@ def _read_odometry(document: Place, mounts: list[Transform], cameras: dict[str, 
                 motion = document["R0_rect"].rigid(rectify, np.zeros(3)) @ motion
             mounts.append(motion.inverse().replace(target=target, source=source))
     notes.append("the file contains no image size; its images are rectified")
+
+
+def kitti_text(rig: Rig) -> str:
+    """Return calib.txt of odometry: the cameras in their order, and Tr if there is a frame velo.
+
+    Raises:
+        CalibrationError: A camera is not rectified, or turned relative to the first one.
+    """
+    if not rig.cameras:
+        raise CalibrationError("calib.txt of KITTI needs cameras, and the calibration has none")
+    lines, first = list[str](), next(iter(rig.cameras.values())).frame
+    for number, (name, model) in enumerate(rig.cameras.items()):
+        if any(model.lens.coefficients):
+            raise CalibrationError(
+                f"calib.txt of KITTI has rectified cameras only, and {name} has a distortion",
+                hint="Rectify the images, and write the calibration of the rectified cameras.",
+            )
+        pose = rig.lookup(first, model.frame) if number else Transform()
+        if np.abs(pose.matrix[:3, :3] - np.eye(3)).max() > _MAX_TURN:
+            raise CalibrationError(f"calib.txt of KITTI has parallel cameras only, and {name} is turned")
+        p = np.column_stack([model.k, -model.k @ pose.translation])
+        lines.append(f"P{number}: {_words(p)}")
+    if "velo" in rig.frames:
+        lines.append(f"Tr: {_words(rig.lookup(first, 'velo').matrix[:3])}")
+    return "\n".join([*lines, ""])
+
+
+def _words(matrix: NDArray[np.float64]) -> str:
+    return " ".join(repr(float(value) + 0.0) for value in matrix.ravel())

@@ -3,18 +3,21 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from coframe.calibration._values import camera
 from coframe.calibration.rig import Rig
+from coframe.errors import CalibrationError
 
 if TYPE_CHECKING:
     from coframe.calibration._values import Place
     from coframe.cameras import CameraModel
 
-__all__ = ["CONVENTION", "is_nuscenes", "read_nuscenes"]
+__all__ = ["CONVENTION", "is_nuscenes", "nuscenes_files", "read_nuscenes"]
 
 CONVENTION = (
     "the pose of the sensor in the ego vehicle (the middle of the rear axle): meters, quaternion w, x, y, z; cameras "
@@ -46,3 +49,28 @@ def read_nuscenes(document: Place, sensors: Place | None) -> Rig:
             k = place.numbers(9).reshape(3, 3)
             cameras[frame] = camera(place, _IMAGE_SIZE, k[[0, 1, 0, 1], [0, 1, 2, 2]], ("", ()), frame)
     return Rig(tuple(mounts), cameras, {}, "nuScenes", CONVENTION)
+
+
+def nuscenes_files(rig: Rig) -> dict[str, str]:
+    """Return calibrated_sensor.json and sensor.json; the first frame of the rig is the ego vehicle.
+
+    Raises:
+        CalibrationError: A camera has a distortion, which the format does not have.
+    """
+    cameras = {model.frame: model for model in rig.cameras.values()}
+    ego, *frames = rig.frames
+    entries, sensors = [], []
+    for frame in frames:
+        model = cameras.get(frame)
+        if model is not None and any(model.lens.coefficients):
+            raise CalibrationError(f"nuScenes has no distortion, and the camera of {frame} has one: rectify its images")
+        pose = rig.lookup(ego, frame)
+        token, sensor = (hashlib.md5(f"{kind}/{frame}".encode(), usedforsecurity=False).hexdigest() for kind in "cs")
+        sensors.append({"token": sensor, "channel": frame, "modality": "lidar" if model is None else "camera"})
+        entries.append({
+            "token": token, "sensor_token": sensor, "translation": pose.translation.tolist(),
+            "rotation": np.roll(pose.quaternion, 1).tolist(),
+            "camera_intrinsic": [] if model is None else model.k.tolist(),
+        })  # fmt: skip
+    files = {"calibrated_sensor.json": entries, "sensor.json": sensors}
+    return {name: json.dumps(document, indent=1) + "\n" for name, document in files.items()}

@@ -9,12 +9,15 @@ import numpy as np
 
 from coframe.calibration._values import camera
 from coframe.calibration.rig import Rig
+from coframe.errors import CalibrationError
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from coframe.calibration._values import Place
     from coframe.cameras import CameraModel
 
-__all__ = ["CONVENTION", "is_opencv", "read_opencv"]
+__all__ = ["CONVENTION", "is_opencv", "opencv_text", "read_opencv"]
 
 CONVENTION = (
     "R and T of stereoCalibrate transform points from the left (first) camera into the right one; optical axes; the "
@@ -74,3 +77,36 @@ def _camera(document: Place, names: tuple[str, str], size: tuple[int, int], fram
     k = document[names[0]].numbers(9).reshape(3, 3)
     d = document[names[1]].numbers() if names[1] in document else np.zeros(0)
     return camera(document[names[0]], size, k[[0, 1, 0, 1], [0, 1, 2, 2]], (model, d), frame)
+
+
+def opencv_text(rig: Rig) -> str:
+    """Return the file of one camera, or of a pair with R and T from the first camera into the second one.
+
+    Raises:
+        CalibrationError: There is another number of cameras, or OpenCV has no model for a lens.
+    """
+    models = list(rig.cameras.items())
+    if len(models) not in {1, 2}:
+        raise CalibrationError(
+            f"a file of OpenCV has one camera or two, and the calibration has {len(models)}",
+            hint=f"Choose one with `coframe calib convert --camera NAME`: {', '.join(rig.cameras)}." if models else "",
+        )
+    first = models[0][1]
+    lines = ["%YAML:1.0", "---", f"image_width: {first.width}", f"image_height: {first.height}"]
+    names = (("camera_matrix", "distortion_coefficients"),) if len(models) == 1 else (("M1", "D1"), ("M2", "D2"))
+    for (name, model), (k, d) in zip(models, names, strict=True):
+        if model.lens.name not in {"plumb_bob", "rational_polynomial"}:
+            if model.lens.name != "equidistant" or len(models) > 1:
+                raise CalibrationError(f"a file of OpenCV has no model for the lens of {name}: {model.lens.name}")
+            lines.append("fisheye_model: 1")
+        lines += [*_matrix(k, model.k), *_matrix(d, np.atleast_2d(model.lens.coefficients or [0.0] * 5))]
+    if len(models) == 2:
+        motion = rig.lookup(models[1][1].frame, first.frame)
+        lines += [*_matrix("R", motion.matrix[:3, :3]), *_matrix("T", motion.translation[:, None])]
+    return "\n".join([*lines, ""])
+
+
+def _matrix(name: str, values: NDArray[np.float64]) -> list[str]:
+    rows, columns = values.shape
+    data = ", ".join(repr(float(value) + 0.0) for value in values.ravel())
+    return [f"{name}: !!opencv-matrix", f"   rows: {rows}", f"   cols: {columns}", "   dt: d", f"   data: [ {data} ]"]
