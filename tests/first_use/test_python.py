@@ -1,18 +1,26 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a user meets who explores coframe at the prompt or in a notebook."""
 
+import base64
 import html
+import io
 import re
 from html.parser import HTMLParser
 
 import numpy as np
 import pytest
 import yaml
+from PIL import Image
 from recordings import write_mcap
 
 import coframe
+from coframe.bags import RecordedMessage, RepairReport, summarize
+from coframe.contract import Result, Verdict
 from coframe.doctor import Finding, Severity, diagnose, observe_recording
-from coframe.messages import Message, find, to_yaml
+from coframe.errors import DecodeError
+from coframe.messages import Message, find, serialize, to_yaml
+from coframe.messages.message import complete_repr
+from coframe.trajectories import compare_trajectories
 
 SECOND = 1_000_000_000
 HOSTILE = "<img src=x onerror=alert(1)>\x1b[31m\n\u202e\"'&"
@@ -187,6 +195,102 @@ def test_messages_in_notebooks():
     assert "# and 999950 more items" in shown(cloud)
     transforms = [find("geometry_msgs/msg/TransformStamped")() for _ in range(80)]
     assert "more lines" in shown(find("tf2_msgs/msg/TFMessage")(transforms=transforms))
+
+
+def test_the_repr_of_an_image_is_one_short_line():
+    image = find("sensor_msgs/msg/Image")(height=480, width=640, data=bytes(range(256)) * 3600)
+    assert repr(image).endswith("data=[0, 1, 2, ...] (921600 items))")
+    assert len(repr(image)) < 300
+    assert complete_repr(image).endswith(" 254, 255])")
+    transforms = find("tf2_msgs/msg/TFMessage")(transforms=[find("geometry_msgs/msg/TransformStamped")()] * 100)
+    assert repr(transforms).endswith(", ...] (100 items))")
+    nested = find("std_msgs/msg/Float64MultiArray")(data=[0.5] * 37)
+    assert repr(nested).endswith("data=[0.5, 0.5, 0.5, ...] (37 items))")
+    nested.data = [0.5] * 36  # as long as a covariance
+    assert repr(nested) == complete_repr(nested)
+
+
+def picture_in(message):
+    """Return the picture in a message's HTML, decoded by another library, or None."""
+    found = re.search(r'<img [^>]*src="data:image/(?:png|jpeg);base64,([^"]*)">', message._repr_html_())
+    return found and np.asarray(Image.open(io.BytesIO(base64.b64decode(found[1]))))
+
+
+@pytest.mark.parametrize("encoding", ["rgb8", "bgr8", "mono8"])
+def test_an_image_has_its_picture_in_notebooks(encoding):
+    colors = np.zeros((2, 4, 3), np.uint8)
+    colors[0, 0], colors[1, 3] = (255, 10, 0), 200
+    pixels = {"rgb8": colors, "bgr8": colors[:, :, ::-1], "mono8": colors[:, :, 0]}[encoding]
+    step = pixels[0].size + 3  # with padding
+    data = np.pad(pixels.reshape(2, -1), ((0, 0), (0, 3))).tobytes()
+    message = find("sensor_msgs/msg/Image")(height=2, width=4, encoding=encoding, step=step, data=data)
+    assert np.array_equal(picture_in(message), colors[:, :, 0] if encoding == "mono8" else colors)
+
+
+def test_depths_are_scaled_and_large_images_thinned():
+    depths = np.full((2, 2000), 1000, "<u2")
+    depths[0, 0], depths[0, 4] = 500, 2000
+    message = find("sensor_msgs/msg/Image")(height=2, width=2000, encoding="16UC1", step=4000, data=depths.tobytes())
+    picture = picture_in(message)
+    assert picture.shape == (1, 500)
+    assert picture[0, :3].tolist() == [0, 255, 85]
+    meters = np.array([[np.nan, 1.0, np.inf, 3.0]], "<f4")
+    message = find("sensor_msgs/msg/Image")(height=1, width=4, encoding="32FC1", step=16, data=meters.tobytes())
+    assert picture_in(message).tolist() == [[0, 0, 255, 255]]
+
+
+def test_compressed_images_in_notebooks():
+    stream = io.BytesIO()
+    Image.fromarray(np.full((8, 8), 7, np.uint8)).save(stream, "JPEG")
+    compressed = find("sensor_msgs/msg/CompressedImage")
+    assert picture_in(compressed(format="jpeg", data=stream.getvalue())).shape == (8, 8)
+    assert picture_in(compressed(format="jpeg", data=b"<script>")) is None
+
+
+@pytest.mark.parametrize(
+    "fields",
+    [
+        {},
+        {"height": 2**31, "width": 2**31, "encoding": "rgb8", "step": 3, "data": b"123"},
+        {"height": 1, "width": 1, "encoding": HOSTILE, "step": 3, "data": b"123"},
+    ],
+    ids=["empty", "too large", "unknown encoding"],
+)
+def test_images_that_cannot_be_read_have_no_picture(fields):
+    assert shown(find("sensor_msgs/msg/Image")(**fields)).startswith("sensor_msgs/msg/Image|header")
+
+
+def test_recorded_topics_and_messages_in_notebooks(tmp_path):
+    path = write_mcap(
+        tmp_path / "run.mcap",
+        rows=[("/text", SECOND, serialize(find("std_msgs/msg/String")(data=HOSTILE)))],
+        types={"/text": ("std_msgs/msg/String", "ros2msg", b"string data", "cdr")},
+    )
+    with coframe.open_bag(path) as recording:
+        assert "|/text|std_msgs/msg/String|1|" in shown(recording.topics)
+        assert "|/text|" in shown(recording.topics["/text"])
+        (message,) = recording.messages("/text")
+        text = shown(message)
+        assert "received" in text
+        assert "data: " in text
+        assert "|format|MCAP|" in shown(summarize(recording))
+    assert "damaged<img" in shown(RecordedMessage("/text", "std_msgs/msg/String", 0, 0, b"\0", damaged))
+
+
+def damaged(_data):
+    raise DecodeError(f"damaged{HOSTILE}")
+
+
+def test_reports_in_notebooks(tmp_path):
+    report = RepairReport(tmp_path, 3, [HOSTILE], ["a change"], [])
+    text = shown(report)
+    assert "|messages|3|" in text
+    assert "|problems|<img src=x onerror=alert(1)>" in text
+    verdict = Verdict("run.mcap", (Result("topic", HOSTILE, ("too slow",)), Result("clock", "", ())))
+    assert "1 of 2 requirements are met" in shown(verdict)
+    assert "|too slow|" in shown(verdict)
+    path = coframe.Transform(np.arange(30.0).reshape(10, 3), stamp=np.arange(10) * SECOND)
+    assert "10 pairs of poses" in shown(compare_trajectories(path, path))
 
 
 def test_str_of_a_message_is_its_repr_as_in_rclpy():

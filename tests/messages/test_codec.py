@@ -26,6 +26,7 @@ from coframe.messages.definition import (
     UnboundedString,
     UnboundedWString,
 )
+from coframe.messages.message import complete_repr
 from geometry_msgs.msg import (
     Point,
     Pose,
@@ -127,7 +128,7 @@ def test_messages_of_a_real_ros_stack_round_trip(name: str, shared: Path) -> Non
     assert serialize(message).hex() == data.hex()
     decoded = deserialize(data, type(message))
     assert serialize(decoded) == data
-    assert repr(decoded) == repr(message)
+    assert complete_repr(decoded) == complete_repr(message)
 
 
 def test_every_recorded_sample_is_compared(shared: Path) -> None:

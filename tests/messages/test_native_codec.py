@@ -11,13 +11,18 @@ import numpy as np
 import pytest
 
 from coframe.errors import DecodeError
-from coframe.messages import codec, deserialize, find, serialize
+from coframe.messages import Message, codec, deserialize, find, serialize
+from coframe.messages.message import complete_repr
 from coframe.messages.native_codec import native_codec
 from geometry_msgs.msg import Point, TransformStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState, LaserScan, PointCloud2
 from std_msgs.msg import ByteMultiArray, Float32, Header, String, UInt64
 from tf2_msgs.msg import TFMessage
+
+
+def text(message: Message | None) -> str:
+    return "refused" if message is None else complete_repr(message)
 
 
 def in_python(message: Any) -> bytes:
@@ -50,7 +55,7 @@ def test_both_codecs_agree(ros_type: str, random_message: Callable[..., Any]) ->
         if native is None:
             continue
         assert native.encode(message) == data
-        assert repr(native.decode(data)) == repr(read_in_python(data, cls))
+        assert text(native.decode(data)) == text(read_in_python(data, cls))
 
 
 def test_both_codecs_agree_on_damaged_bytes(random_message: Callable[..., Any]) -> None:
@@ -70,7 +75,7 @@ def test_both_codecs_agree_on_damaged_bytes(random_message: Callable[..., Any]) 
         decoded = native.decode(bytes(data))
         refused += decoded is None
         # Bytes in big endian, which a changed header can say, are left to the Python code.
-        assert repr(decoded) == repr(expected) or (decoded is None and data[1] != 1)
+        assert text(decoded) == text(expected) or (decoded is None and data[1] != 1)
     assert 500 < refused < 2_500
 
 

@@ -7,16 +7,17 @@ colors: the tables are readable on light and on dark backgrounds.
 
 from __future__ import annotations
 
+import base64
 import html
 from itertools import islice
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from coframe._output.formatting import count
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-__all__ = ["MAX_ROWS", "paragraph", "preformatted", "section", "table"]
+__all__ = ["MAX_ROWS", "image", "paragraph", "preformatted", "record", "section", "table"]
 
 MAX_ROWS = 50
 _MAX_TEXT_LENGTH = 1000  # characters per cell or paragraph
@@ -72,6 +73,33 @@ def preformatted(lines: Sequence[str]) -> str:
     shown = "\n".join(_escape(line) for line in lines[:MAX_ROWS])
     more = paragraph(_omitted_rows_text(len(lines), "line")) if len(lines) > MAX_ROWS else ""
     return f'<pre style="margin: 0; color: inherit; background: transparent">{shown}</pre>{more}'
+
+
+def image(data: bytes, description: str) -> str:
+    """Return a JPEG or PNG file as an image, with a description for screen readers."""
+    kind = "png" if data.startswith(b"\x89PNG") else "jpeg"
+    source = f"data:image/{kind};base64,{base64.b64encode(data).decode()}"
+    return f'<img alt="{_escape(description)}" style="display: block; max-width: 100%" src="{source}">'
+
+
+def record(title: str, fields: Iterable[tuple[str, object]]) -> str:
+    """Return the fields of a report: a table of single values, followed by a table for each list that is not empty.
+
+    Args:
+        title: The title as text.
+        fields: Names and values; the elements of lists are named tuples or single values.
+    """
+    pairs = list(fields)
+    single = [(name, value) for name, value in pairs if not isinstance(value, list)]
+    lists = [_list_table(name, value) for name, value in pairs if isinstance(value, list)]
+    return section(title, table(("", ""), single, len(single)), *lists)
+
+
+def _list_table(name: str, values: list[Any]) -> str:
+    columns = getattr(values[0], "_fields", None) if values else None
+    rows = values if columns else ((value,) for value in values)
+    titles = (f"{name}: {columns[0]}", *columns[1:]) if columns else (name,)
+    return table(titles, rows, len(values))
 
 
 def _omitted_rows_text(total: int, noun: str) -> str:

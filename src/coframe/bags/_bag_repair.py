@@ -10,6 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe._output import html_tables
 from coframe._output.formatting import count
 from coframe.bags._offered_qos import OfferedQos, from_yaml, to_yaml
 from coframe.bags._writer import Writer
@@ -58,6 +59,9 @@ class RepairReport(NamedTuple):
     problems: list[str]
     changes: list[str]
     remaining: list[str]
+
+    def _repr_html_(self) -> str:
+        return html_tables.record(f"Repaired {self.path}", self._asdict().items())
 
 
 def repair(

@@ -17,7 +17,7 @@ from coframe._sources.sources import Source
 from coframe.bags._file_discovery import open_files
 from coframe.bags._message_index import MessageIndex, largest_track, reread
 from coframe.bags._problems import Problems
-from coframe.bags._recorded_message import RecordedTopic
+from coframe.bags._recorded_message import RecordedTopic, RecordedTopics
 from coframe.bags._recorded_types import RecordedTypes
 from coframe.bags._selective_reading import ChunkReader, listed_span, topic_facts
 from coframe.bags._time_window import ALL_TIME
@@ -93,7 +93,7 @@ class Contents:
     formats: list[RecordingFormat]
     compression: str
     received_span: tuple[int, int] | None
-    topics: dict[str, RecordedTopic]
+    topics: RecordedTopics
     read_buffers: Callable[[], Buffers]
 
 
@@ -170,7 +170,7 @@ class _ReadState:
             self._check_related(storages)
         span = self._index.span() if waiting is None else listed_span(listings or ())
         facts = {} if waiting is None else topic_facts(listings or ())
-        topics = {name: self._topic(name, span, facts) for name in self._index.topics()}
+        topics = RecordedTopics((name, self._topic(name, span, facts)) for name in self._index.topics())
         read_buffers = partial(self._buffers, waiting)
         if waiting is None:
             buffers = read_buffers()

@@ -5,10 +5,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from coframe._output import html_tables
+from coframe._output.formatting import count
+from coframe.errors import DecodeError
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["RecordedMessage", "RecordedTopic"]
+__all__ = ["RecordedMessage", "RecordedTopic", "RecordedTopics"]
 
 
 class RecordedTopic(NamedTuple):
@@ -27,6 +31,21 @@ class RecordedTopic(NamedTuple):
     messages: int
     rate: float
     encoding: str
+
+    def _repr_html_(self) -> str:
+        return html_tables.record(self.name, self._asdict().items())
+
+
+class RecordedTopics(dict[str, RecordedTopic]):
+    """The topics of a recording by name; a dictionary that notebooks show as a table."""
+
+    def _repr_html_(self) -> str:
+        return html_tables.section(count(len(self), "topic"), self.html_table())
+
+    def html_table(self) -> str:
+        """Return the topics as an HTML table."""
+        rows = ((topic.name, topic.type, topic.messages, f"{topic.rate:.3g} Hz") for topic in self.values())
+        return html_tables.table(("topic", "type", "messages", "rate"), rows, len(self), "topic")
 
 
 class RecordedMessage:
@@ -65,3 +84,12 @@ class RecordedMessage:
 
     def __repr__(self) -> str:
         return f"RecordedMessage({self.topic!r}, {self.type}, stamp={self.stamp}, {len(self.data)} bytes)"
+
+    def _repr_html_(self) -> str:
+        fields = {"topic": self.topic, "type": self.type, "stamp": self.stamp, "received": self.received}
+        try:
+            message = self.message
+        except DecodeError as error:
+            return html_tables.record(repr(self), {**fields, "problem": error}.items())
+        show = getattr(message, "_repr_html_", None)
+        return html_tables.record(repr(self), fields.items()) + (show() if show else "")

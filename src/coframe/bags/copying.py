@@ -12,6 +12,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe._output import html_tables
 from coframe._output.formatting import count
 from coframe.bags._clock_shift import ClockShift, measured_shift
 from coframe.bags._merging import MergedNames
@@ -58,6 +59,9 @@ class CopyReport(NamedTuple):
     messages: int
     problems: list[str]
     notes: list[str]
+
+    def _repr_html_(self) -> str:
+        return html_tables.record(f"Copied to {self.path}", self._asdict().items())
 
 
 def copy_recordings(

@@ -666,11 +666,10 @@ class Recording:
         return show_in_browser(self, **options)
 
     def _repr_html_(self) -> str:
-        rows = ((topic.name, topic.type, topic.messages, f"{topic.rate:.3g} Hz") for topic in self.topics.values())
         problems = ((sentence,) for sentence in self.problems)
         return html_tables.section(
             repr(self),
-            html_tables.table(("topic", "type", "messages", "rate"), rows, len(self.topics), "topic"),
+            self.topics.html_table(),
             html_tables.paragraph(f"The buffer has {count(len(self.buffer.frame_names()), 'frame')}."),
             html_tables.table(("problems",), problems, len(self.problems), "problem"),
         )

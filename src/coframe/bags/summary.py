@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from coframe._output import html_tables
 from coframe.analysis.tree import FrameTrees
 from coframe.errors import TransformException
 
@@ -89,6 +90,9 @@ class Summary(NamedTuple):
     files: int
     format: str
     compression: str
+
+    def _repr_html_(self) -> str:
+        return html_tables.record(self.path, self._asdict().items())
 
 
 def summarize(recording: Recording) -> Summary:

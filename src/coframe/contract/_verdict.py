@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe._output import html_tables
 from coframe._output.escaping import one_line
 from coframe._sources.urls import is_url, remove_credentials
 from coframe.bags.namespaces import ALL_TRANSFORMS
@@ -72,6 +73,17 @@ class Verdict(NamedTuple):
         problems = [f"{each.kind} {each.subject}: {problem}" for each in self.broken for problem in each.problems]
         problems += [f"not checked: {each}" for each in self.unchecked]
         return "\n".join([*lines, *(f"  {one_line(problem)}" for problem in problems)])
+
+    def _repr_html_(self) -> str:
+        title = self.text().partition("\n")[0]
+        rows = (
+            (each.kind, each.subject, "yes" if each.is_met else "no", " ".join(each.problems)) for each in self.results
+        )
+        return html_tables.section(
+            title,
+            html_tables.table(("requirement", "subject", "met", "problems"), rows, len(self.results), "requirement"),
+            html_tables.table(("not checked",), ((each,) for each in self.unchecked), len(self.unchecked)),
+        )
 
 
 def check_recording(

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from itertools import islice
 from operator import ne
 from typing import Any, ClassVar, Final
 
@@ -11,8 +12,12 @@ import numpy as np
 from coframe._output import html_tables
 from coframe.messages._fields import CHECKS_FIELDS, Check, attribute, constructor_conversion, number_of
 from coframe.messages._yaml_text import to_yaml
-from coframe.messages.definition import AbstractSequence, AbstractType, describe
+from coframe.messages.definition import AbstractNestedType, AbstractSequence, AbstractType, describe
 from coframe.messages.registry import classes, find
+
+MAX_REPR_ITEMS: Final = 36
+"""A longer array or sequence is abbreviated in the repr of a message. The covariance of a pose is shown completely."""
+_FIRST_ITEMS = 3  # of an abbreviated array
 
 
 class MessageType(type):
@@ -74,13 +79,27 @@ class Message(metaclass=MessageType):
     __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
-        fields = zip(self._fields_and_field_types, self.__values(), self.SLOT_TYPES, strict=True)
-        content = ", ".join(f"{name}={_show(value, type_)}" for name, value, type_ in fields)
-        return f"{type(self).__module__}.{type(self).__name__}({content})"
+        return _text(self, MAX_REPR_ITEMS)
 
     def _repr_html_(self) -> str:
+        from coframe.sensors.message_pictures import picture_of  # noqa: PLC0415 - sensors are above this module
+
         lines = to_yaml(self, max_items=html_tables.MAX_ROWS).splitlines()
-        return html_tables.section(self.ROS_TYPE, html_tables.preformatted(lines))
+        picture = picture_of(self)
+        image = html_tables.image(picture, self.ROS_TYPE) if picture else ""
+        return html_tables.section(self.ROS_TYPE, image, html_tables.preformatted(lines))
+
+
+def complete_repr(message: Message) -> str:
+    """Return the repr of a message with all elements of its arrays and sequences, as rclpy prints it."""
+    return _text(message, None)
+
+
+def _text(message: Message, most: int | None) -> str:
+    values = [getattr(message, slot) for slot in message.__slots__]
+    fields = zip(message.get_fields_and_field_types(), values, message.SLOT_TYPES, strict=True)
+    content = ", ".join(f"{name}={_show(value, type_, most)}" for name, value, type_ in fields)
+    return f"{type(message).__module__}.{type(message).__name__}({content})"
 
 
 EVENT_SUFFIX: Final = "_Event"  # of the type in which a service publishes its requests and responses
@@ -132,8 +151,21 @@ def _differ(left: Any, right: Any) -> bool:
     return ne(left, right)  # type: ignore[no-any-return]
 
 
-def _show(value: Any, type_: AbstractType) -> str:
+def _show(value: Any, type_: AbstractType, most: int | None) -> str:
     """Return the repr of a field's value; sequences of numbers are shown without ``array(...)`` around them."""
+    if isinstance(value, Message):
+        return _text(value, most)
+    if not isinstance(type_, AbstractNestedType):
+        return repr(value)
+    if most is not None and len(value) > most:
+        first = value[:_FIRST_ITEMS].tolist() if isinstance(value, np.ndarray) else islice(value, _FIRST_ITEMS)
+        return f"[{', '.join(_show_item(item, most) for item in first)}, ...] ({len(value)} items)"
     if isinstance(type_, AbstractSequence) and number_of(type_):
         return repr(value)[len("array('X', ") : -1] if len(value) else "[]"
+    if isinstance(value, list):
+        return f"[{', '.join(_show_item(item, most) for item in value)}]"
     return repr(value)
+
+
+def _show_item(item: Any, most: int | None) -> str:
+    return _text(item, most) if isinstance(item, Message) else repr(item)

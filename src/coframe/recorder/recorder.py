@@ -9,6 +9,7 @@ from datetime import datetime
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe import _core
+from coframe._output import html_tables
 from coframe.bags import OfferedQos, RecordingError, Writer
 from coframe.frame_names import renaming
 from coframe.recorder._frame_renaming import FrameRenamer
@@ -45,7 +46,7 @@ class RecorderStatistics(NamedTuple):
         waiting: The size of received messages not yet written, in bytes.
         dropped: The number of messages, by topic, that were dropped because the disk was too slow.
         missing: The topics that were requested by name and have no publisher yet.
-        refused: The topics that cannot be recorded, because their type is not a ROS type or there are too many topics.
+        unrecordable: The topics that cannot be recorded, because their type is not a ROS type or there are too many.
         not_renamed: The topics whose frames get no prefix because the definition of their type is unknown.
     """
 
@@ -57,6 +58,9 @@ class RecorderStatistics(NamedTuple):
     missing: list[str]
     unrecordable: list[str]
     not_renamed: list[str]
+
+    def _repr_html_(self) -> str:
+        return html_tables.record("Recorder", self._asdict().items())
 
 
 class Recorder:

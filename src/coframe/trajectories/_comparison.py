@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 
 from coframe import quaternion
+from coframe._output import html_tables
 from coframe._output.formatting import count
 from coframe.errors import TrajectoryError
 from coframe.time import MILLISECOND, SECOND, duration_ns
@@ -135,6 +136,17 @@ class Comparison:
     time_shift: TimeShift | None = None
     t_offset: int = 0
     applied_body_offset: Transform | None = None
+
+    def _repr_html_(self) -> str:
+        statistics = {
+            "APE, m": self.ape.translation_statistics,
+            "APE, rad": self.ape.rotation_statistics,
+            f"RPE over {self.delta}, m": self.rpe.translation_statistics,
+            f"RPE over {self.delta}, rad": self.rpe.rotation_statistics,
+        }
+        rows = [(name, *(f"{value:.6g}" for value in values)) for name, values in statistics.items()]
+        title = f"{count(len(self.reference), 'pair')} of poses"
+        return html_tables.section(title, html_tables.table(("", *Statistics._fields), rows, len(rows)))
 
     def as_dict(self) -> dict[str, Any]:
         """Return the statistics and the alignment as a dictionary for JSON; meters and radians."""

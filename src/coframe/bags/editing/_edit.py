@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe._files.os_errors import reason
+from coframe._output import html_tables
 from coframe._sources.sources import as_source
 from coframe.bags._compression import DamagedError
 from coframe.bags._problems import Problems
@@ -68,6 +69,9 @@ class EditReport(NamedTuple):
     messages: int
     rules: list[RuleCount]
     notes: list[str]
+
+    def _repr_html_(self) -> str:
+        return html_tables.record(f"Edited {self.path}" if self.path else "Dry run", self._asdict().items())
 
     @property
     def unmatched(self) -> list[RuleCount]:

@@ -42,6 +42,7 @@ from coframe.cli.ros2.qos import (
     reliability_option,
 )
 from coframe.cli.ros2.values import read_values
+from coframe.messages.message import complete_repr
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -108,10 +109,10 @@ def call(
             )
         while True:
             fill_stamps(node.get_clock().now().to_msg())
-            print(f"requester: making request: {request!r}\n", flush=True)
+            print(f"requester: making request: {complete_repr(request)}\n", flush=True)
             limit = Deadline(timeout or MAX_WAIT_FOR_RESPONSE)
             response = await_response(node, client.call_async(request), shown, limit, client.service_is_ready)
-            print(f"response:\n{response!r}\n", flush=True)
+            print(f"response:\n{complete_repr(response)}\n", flush=True)
             if rate is None:
                 return
             time.sleep(1.0 / rate)

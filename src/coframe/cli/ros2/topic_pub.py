@@ -22,6 +22,7 @@ from coframe.cli.ros2.qos import (
     reliability_option,
 )
 from coframe.cli.ros2.values import read_documents, read_values
+from coframe.messages.message import complete_repr
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -164,7 +165,7 @@ def _publish(
         number += 1
         fill_stamps(node.get_clock().now().to_msg())
         if print_every and number % print_every == 0:
-            print(f"publishing #{number}: {message!r}\n", flush=True)
+            print(f"publishing #{number}: {complete_repr(message)}\n", flush=True)
         publisher.publish(message)
         due += period
         if number != count:

@@ -6,12 +6,11 @@ from __future__ import annotations
 import base64
 import json
 import math
-import struct
-import zlib
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from coframe._output.png import encode_png
 from coframe.viewer.scripting._arguments import MAX_NAME, parse_name
 from coframe.viewer.scripting._colors import parse_pixels
 from coframe.viewer.scripting.errors import SceneError
@@ -36,11 +35,7 @@ def image_text(image: Any) -> str:
     rows, columns = pixels.shape[:2]
     if rows * columns > MAX_WIDGET_PIXELS:
         raise SceneError(f"image: {rows * columns} pixels exceed the maximum of {MAX_WIDGET_PIXELS} of a widget")
-    filtered = np.zeros((rows, 1 + columns * 4), np.uint8)  # Each row begins with its filter, which is none.
-    filtered[:, 1:] = pixels.reshape(rows, columns * 4)
-    header = struct.pack(">IIBBBBB", columns, rows, 8, 6, 0, 0, 0)  # 8 bits, red, green, blue, alpha
-    parts = [_chunk(b"IHDR", header), _chunk(b"IDAT", zlib.compress(filtered.tobytes(), 1)), _chunk(b"IEND", b"")]
-    return "data:image/png;base64," + base64.b64encode(b"\x89PNG\r\n\x1a\n" + b"".join(parts)).decode()
+    return "data:image/png;base64," + base64.b64encode(encode_png(pixels)).decode()
 
 
 def plot_text(x: Any, curves: Mapping[str, Any], x_label: str) -> str:
@@ -71,7 +66,3 @@ def _numbers(values: Any, argument: str) -> list[float | None]:
     if len(array) > MAX_PLOT_POINTS:
         raise SceneError(f"{argument}: {len(array)} values exceed the maximum of {MAX_PLOT_POINTS}")
     return [float(one) if math.isfinite(one) else None for one in array]
-
-
-def _chunk(kind: bytes, data: bytes) -> bytes:
-    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
