@@ -116,6 +116,17 @@ def test_a_german_stub_is_the_same_program(name, tmp_path):
     assert max(map(len, text.splitlines())) <= 120
 
 
+def test_the_commands_of_a_german_folder_are_explained_and_answer_in_german(tmp_path):
+    create_folder(tmp_path / "lab", None, GERMAN)
+    text = (tmp_path / "lab" / "README.md").read_text(encoding="utf-8")
+    (block,) = re.findall(r"^```console\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+    assert "Ihre Note" in block
+    assert " your " not in block
+    for line in block.splitlines():
+        if re.match("coframe lab (check|break)", line):
+            assert "--language de" in line
+
+
 def test_the_chapters_in_german_have_the_same_code_and_links(tmp_path):
     for chapter in chapters():
         text = chapter.file.read_text(encoding="utf-8")
