@@ -97,7 +97,7 @@ def test_every_scan_is_published_as_a_correct_cloud(processes):
     for seconds in (6.0, 15.0, 30.0):  # a busy machine needs more time
         received = processes.observe(seconds, *TOPICS)
         tree, scans, clouds = by_stamp(received)
-        if len(scans) >= 40:
+        if len(scans) >= 40 and set(scans) <= set(clouds):  # which may also find no transform in time
             break
     assert len(scans) >= 40
     assert set(scans) <= set(clouds), "some scans became no cloud"
