@@ -87,6 +87,13 @@ class OneMessage:
         return [self.message] if key < self.message.key else []
 
 
+def displayed_types() -> list[str]:
+    """Return the types that the viewer displays, but for one whose definition is not part of coframe."""
+    from coframe.viewer.displays.rows import DISPLAY_OF_TYPE
+
+    return sorted(set(DISPLAY_OF_TYPE) - {"ffmpeg_image_transport_msgs/msg/FFMPEGPacket"})
+
+
 @target
 def displays() -> Callable[[bytes], object]:
     """Draw messages of all types that the viewer displays."""
@@ -94,9 +101,9 @@ def displays() -> Callable[[bytes], object]:
     from coframe.messages import deserialize, find
     from coframe.viewer.displays import CannotDrawError, Options
     from coframe.viewer.displays.resources import Resources
-    from coframe.viewer.displays.rows import DISPLAY_OF_TYPE, make_renderer
+    from coframe.viewer.displays.rows import make_renderer
 
-    types = sorted(DISPLAY_OF_TYPE)
+    types = displayed_types()
     classes = [find(name) for name in types]
 
     def run(data: bytes) -> None:

@@ -189,9 +189,9 @@ def messages() -> Iterable[bytes]:
 
 
 def displays() -> Iterable[bytes]:
-    from coframe.viewer.displays.rows import DISPLAY_OF_TYPE
+    from python_targets import displayed_types
 
-    yield from _sensor_seeds(sorted(DISPLAY_OF_TYPE))
+    yield from _sensor_seeds(displayed_types())
 
 
 def sensor_messages() -> Iterable[bytes]:
