@@ -91,6 +91,87 @@ export interface RvizTool {
   options: JsonObject;
 }
 
+/** The answer to `complete`: possible completions of the text. */
+export interface Completions {
+  type: "completions";
+  id: number;
+  items: string[];
+}
+
+/**
+ * The status of a curve. `axis` is the title of its axis: curves with the same title share a plot.
+ *
+ * `points` is the number of points that exist; fewer are sent if they are thinned.
+ */
+export interface CurveStatus {
+  type: "curve";
+  id: number;
+  state: "ok" | "waiting" | "error";
+  text: string;
+  hint: string;
+  axis: string;
+  points: number;
+}
+
+/** New changes of a field. `reset` discards earlier ones; `until` is the time of the last message. */
+export interface FieldStates {
+  type: "states";
+  id: number;
+  state: "ok" | "waiting" | "error";
+  text: string;
+  reset: boolean;
+  until: number | null;
+  changes: StateChange[];
+}
+
+/**
+ * The newest message of the inspected topic at the displayed time; sent when it changes.
+ *
+ * `rate` is in Hz. `publishers` are the names of their nodes, which recordings do not contain.
+ */
+export interface Inspection {
+  type: "inspection";
+  topic: string;
+  message_type: string;
+  state: "ok" | "waiting" | "error";
+  text: string;
+  stamp: number | null;
+  rate: number | null;
+  publishers: string[];
+  fields: InspectedField[];
+}
+
+/** New log messages. `reset` discards earlier ones; `omitted` counts those that were not sent. */
+export interface LogEntries {
+  type: "log";
+  reset: boolean;
+  text: string;
+  omitted: number;
+  entries: LogEntry[];
+}
+
+/** The nodes and topics; sent when they change. `text` gives the reason if there are none, or not all. */
+export interface NodeGraph {
+  type: "graph";
+  text: string;
+  nodes: GraphNode[];
+  topics: GraphTopic[];
+  links: GraphLink[];
+}
+
+/** The last messages of a topic at the displayed time: new rows, and the `first` and `last` key of all rows. */
+export interface TopicTable {
+  type: "table";
+  topic: string;
+  message_type: string;
+  state: "ok" | "waiting" | "error";
+  text: string;
+  columns: TableColumn[];
+  first: number;
+  last: number;
+  rows: TableRow[];
+}
+
 /** A topic with the class of its display, or "" if it has none, and whether it is displayed automatically. */
 export interface DisplayTopic {
   topic: string;
@@ -429,154 +510,6 @@ export interface CodePage {
   text: string;
 }
 
-/**
- * The status of a curve. `axis` is the title of its axis: curves with the same title share a plot.
- *
- * `points` is the number of points that exist; fewer are sent if they are thinned.
- */
-export interface CurveStatus {
-  type: "curve";
-  id: number;
-  state: "ok" | "waiting" | "error";
-  text: string;
-  hint: string;
-  axis: string;
-  points: number;
-}
-
-/**
- * A field of an inspected message, in the order in which it is shown.
- *
- * `path` begins with the topic; it is an expression for a curve if `is_number`. `depth` is 0 for the fields of
- * the message itself.
- */
-export interface InspectedField {
-  path: string;
-  depth: number;
-  name: string;
-  type: string;
-  text: string;
-  is_number: boolean;
-}
-
-/**
- * The newest message of the inspected topic at the displayed time; sent when it changes.
- *
- * `rate` is in Hz. `publishers` are the names of their nodes, which recordings do not contain.
- */
-export interface Inspection {
-  type: "inspection";
-  topic: string;
-  message_type: string;
-  state: "ok" | "waiting" | "error";
-  text: string;
-  stamp: number | null;
-  rate: number | null;
-  publishers: string[];
-  fields: InspectedField[];
-}
-
-/** A field that has a value of its own; `path` is relative to the message. */
-export interface TableColumn {
-  path: string;
-  type: string;
-}
-
-/** A message; `key` increases from message to message, and there is one cell per column. */
-export interface TableRow {
-  key: number;
-  stamp: number;
-  cells: string[];
-}
-
-/** The last messages of a topic at the displayed time: new rows, and the `first` and `last` key of all rows. */
-export interface TopicTable {
-  type: "table";
-  topic: string;
-  message_type: string;
-  state: "ok" | "waiting" | "error";
-  text: string;
-  columns: TableColumn[];
-  first: number;
-  last: number;
-  rows: TableRow[];
-}
-
-/** The value of a field from a time on, until the next change. */
-export interface StateChange {
-  stamp: number;
-  text: string;
-}
-
-/** New changes of a field. `reset` discards earlier ones; `until` is the time of the last message. */
-export interface FieldStates {
-  type: "states";
-  id: number;
-  state: "ok" | "waiting" | "error";
-  text: string;
-  reset: boolean;
-  until: number | null;
-  changes: StateChange[];
-}
-
-/** A log message; `place` is the file, the function and the line that logged it. */
-export interface LogEntry {
-  stamp: number;
-  level: "debug" | "info" | "warning" | "error" | "fatal";
-  node: string;
-  text: string;
-  place: string;
-}
-
-/** New log messages. `reset` discards earlier ones; `omitted` counts those that were not sent. */
-export interface LogEntries {
-  type: "log";
-  reset: boolean;
-  text: string;
-  omitted: number;
-  entries: LogEntry[];
-}
-
-/** A node; `infrastructure` nodes are hidden by default. */
-export interface GraphNode {
-  name: string;
-  infrastructure: boolean;
-}
-
-/** A topic and its message types; `infrastructure` topics are hidden by default. */
-export interface GraphTopic {
-  topic: string;
-  types: string[];
-  infrastructure: boolean;
-}
-
-/**
- * A publisher or a subscription: indices into the nodes and the topics, and why it does not match others, or "".
- */
-export interface GraphLink {
-  node: number;
-  topic: number;
-  publishes: boolean;
-  qos: string;
-  problem: string;
-}
-
-/** The nodes and topics; sent when they change. `text` gives the reason if there are none, or not all. */
-export interface NodeGraph {
-  type: "graph";
-  text: string;
-  nodes: GraphNode[];
-  topics: GraphTopic[];
-  links: GraphLink[];
-}
-
-/** The answer to `complete`: possible completions of the text. */
-export interface Completions {
-  type: "completions";
-  id: number;
-  items: string[];
-}
-
 /** The answer to `save_rviz`: the text of the .rviz file. */
 export interface RvizSaved {
   type: "saved";
@@ -695,6 +628,73 @@ export interface ProblemReport {
   type: "problem";
   text: string;
   hint: string;
+}
+
+/**
+ * A field of an inspected message, in the order in which it is shown.
+ *
+ * `path` begins with the topic; it is an expression for a curve if `is_number`. `depth` is 0 for the fields of
+ * the message itself.
+ */
+export interface InspectedField {
+  path: string;
+  depth: number;
+  name: string;
+  type: string;
+  text: string;
+  is_number: boolean;
+}
+
+/** A field that has a value of its own; `path` is relative to the message. */
+export interface TableColumn {
+  path: string;
+  type: string;
+}
+
+/** A message; `key` increases from message to message, and there is one cell per column. */
+export interface TableRow {
+  key: number;
+  stamp: number;
+  cells: string[];
+}
+
+/** The value of a field from a time on, until the next change. */
+export interface StateChange {
+  stamp: number;
+  text: string;
+}
+
+/** A log message; `place` is the file, the function and the line that logged it. */
+export interface LogEntry {
+  stamp: number;
+  level: "debug" | "info" | "warning" | "error" | "fatal";
+  node: string;
+  text: string;
+  place: string;
+}
+
+/** A node; `infrastructure` nodes are hidden by default. */
+export interface GraphNode {
+  name: string;
+  infrastructure: boolean;
+}
+
+/** A topic and its message types; `infrastructure` topics are hidden by default. */
+export interface GraphTopic {
+  topic: string;
+  types: string[];
+  infrastructure: boolean;
+}
+
+/**
+ * A publisher or a subscription: indices into the nodes and the topics, and why it does not match others, or "".
+ */
+export interface GraphLink {
+  node: number;
+  topic: number;
+  publishes: boolean;
+  qos: string;
+  problem: string;
 }
 
 /**
@@ -1799,6 +1799,13 @@ export const RECORDS: Readonly<Record<string, Readonly<Record<string, Schema>>>>
   RvizGroup: {"source": "s", "group": "s", "name": "s", "enabled": "b"},
   RvizView: {"class": "s", "options": "j"},
   RvizTool: {"class": "s", "topic": ["?", "s"], "options": "j"},
+  Completions: {"type": ["l", "completions"], "id": "n", "items": ["a", "s"]},
+  CurveStatus: {"type": ["l", "curve"], "id": "n", "state": ["l", "ok", "waiting", "error"], "text": "s", "hint": "s", "axis": "s", "points": "n"},
+  FieldStates: {"type": ["l", "states"], "id": "n", "state": ["l", "ok", "waiting", "error"], "text": "s", "reset": "b", "until": ["?", "n"], "changes": ["a", "@StateChange"]},
+  Inspection: {"type": ["l", "inspection"], "topic": "s", "message_type": "s", "state": ["l", "ok", "waiting", "error"], "text": "s", "stamp": ["?", "n"], "rate": ["?", "n"], "publishers": ["a", "s"], "fields": ["a", "@InspectedField"]},
+  LogEntries: {"type": ["l", "log"], "reset": "b", "text": "s", "omitted": "n", "entries": ["a", "@LogEntry"]},
+  NodeGraph: {"type": ["l", "graph"], "text": "s", "nodes": ["a", "@GraphNode"], "topics": ["a", "@GraphTopic"], "links": ["a", "@GraphLink"]},
+  TopicTable: {"type": ["l", "table"], "topic": "s", "message_type": "s", "state": ["l", "ok", "waiting", "error"], "text": "s", "columns": ["a", "@TableColumn"], "first": "n", "last": "n", "rows": ["a", "@TableRow"]},
   DisplayTopic: {"topic": "s", "type": "s", "display": "s", "automatic": "b"},
   RvizGlobalOptions: {"fixed_frame": ["?", "s"], "background": ["?", ["a", "n"]], "frame_rate": ["?", "n"]},
   UnknownRvizPart: {"path": "s", "class": "s", "name": "s"},
@@ -1829,21 +1836,6 @@ export const RECORDS: Readonly<Record<string, Readonly<Record<string, Schema>>>>
   FindingEntry: {"code": "s", "severity": ["l", "error", "warning", "note"], "title": "s", "subject": "s", "frames": ["a", "s"], "text": "s", "why": "s", "fix": "s", "publishers": ["a", "s"], "first": ["?", "n"], "namespace": "s", "explains": ["a", "@FindingEntry"]},
   FindingEntries: {"type": ["l", "findings"], "state": ["l", "none", "waiting", "ready", "failed"], "text": "s", "findings": ["a", "@FindingEntry"]},
   CodePage: {"type": ["l", "page"], "code": "s", "title": "s", "text": "s"},
-  CurveStatus: {"type": ["l", "curve"], "id": "n", "state": ["l", "ok", "waiting", "error"], "text": "s", "hint": "s", "axis": "s", "points": "n"},
-  InspectedField: {"path": "s", "depth": "n", "name": "s", "type": "s", "text": "s", "is_number": "b"},
-  Inspection: {"type": ["l", "inspection"], "topic": "s", "message_type": "s", "state": ["l", "ok", "waiting", "error"], "text": "s", "stamp": ["?", "n"], "rate": ["?", "n"], "publishers": ["a", "s"], "fields": ["a", "@InspectedField"]},
-  TableColumn: {"path": "s", "type": "s"},
-  TableRow: {"key": "n", "stamp": "n", "cells": ["a", "s"]},
-  TopicTable: {"type": ["l", "table"], "topic": "s", "message_type": "s", "state": ["l", "ok", "waiting", "error"], "text": "s", "columns": ["a", "@TableColumn"], "first": "n", "last": "n", "rows": ["a", "@TableRow"]},
-  StateChange: {"stamp": "n", "text": "s"},
-  FieldStates: {"type": ["l", "states"], "id": "n", "state": ["l", "ok", "waiting", "error"], "text": "s", "reset": "b", "until": ["?", "n"], "changes": ["a", "@StateChange"]},
-  LogEntry: {"stamp": "n", "level": ["l", "debug", "info", "warning", "error", "fatal"], "node": "s", "text": "s", "place": "s"},
-  LogEntries: {"type": ["l", "log"], "reset": "b", "text": "s", "omitted": "n", "entries": ["a", "@LogEntry"]},
-  GraphNode: {"name": "s", "infrastructure": "b"},
-  GraphTopic: {"topic": "s", "types": ["a", "s"], "infrastructure": "b"},
-  GraphLink: {"node": "n", "topic": "n", "publishes": "b", "qos": "s", "problem": "s"},
-  NodeGraph: {"type": ["l", "graph"], "text": "s", "nodes": ["a", "@GraphNode"], "topics": ["a", "@GraphTopic"], "links": ["a", "@GraphLink"]},
-  Completions: {"type": ["l", "completions"], "id": "n", "items": ["a", "s"]},
   RvizSaved: {"type": ["l", "saved"], "text": "s"},
   UploadProgress: {"type": ["l", "upload"], "state": ["l", "receiving", "done", "failed"], "received": "n", "total": "n", "text": "s", "hint": "s"},
   ReplayPrepared: {"type": ["l", "replay"], "settings": "s"},
@@ -1855,6 +1847,14 @@ export const RECORDS: Readonly<Record<string, Readonly<Record<string, Schema>>>>
   Widget: {"type": ["l", "widget"], "id": "n", "kind": ["l", "button", "checkbox", "dropdown", "folder", "image", "number", "plot", "slider", "text"], "label": "s", "parent": ["?", "n"], "number": ["?", "n"], "text": ["?", "s"], "flag": ["?", "b"], "lower": ["?", "n"], "upper": ["?", "n"], "step": ["?", "n"], "options": ["a", "s"], "hint": "s", "disabled": "b", "visible": "b", "content": "s"},
   RemovedWidgets: {"type": ["l", "widgets_removed"], "ids": ["a", "n"]},
   ProblemReport: {"type": ["l", "problem"], "text": "s", "hint": "s"},
+  InspectedField: {"path": "s", "depth": "n", "name": "s", "type": "s", "text": "s", "is_number": "b"},
+  TableColumn: {"path": "s", "type": "s"},
+  TableRow: {"key": "n", "stamp": "n", "cells": ["a", "s"]},
+  StateChange: {"stamp": "n", "text": "s"},
+  LogEntry: {"stamp": "n", "level": ["l", "debug", "info", "warning", "error", "fatal"], "node": "s", "text": "s", "place": "s"},
+  GraphNode: {"name": "s", "infrastructure": "b"},
+  GraphTopic: {"topic": "s", "types": ["a", "s"], "infrastructure": "b"},
+  GraphLink: {"node": "n", "topic": "n", "publishes": "b", "qos": "s", "problem": "s"},
   ReplayRviz: {"displays": ["a", "@RvizDisplay"], "global": "j", "view": ["?", "@RvizView"]},
   ReplayDisplayBlock: {"topic": "s", "type": "s", "display": "s", "color_by": ["?", ["l", "axis", "intensity", "rgb", "rgbf", "distance", "flat"]], "every": "n", "statuses": ["a", ["t", "n", ["l", "ok", "waiting", "error"], "s"]], "drawings": ["m", "s"], "changes": "s", "counts": "s", "sequences": "s", "poses": "s", "stamps": "s"},
   ReplayNode: {"node": "@SceneNode", "geometry": "s"},

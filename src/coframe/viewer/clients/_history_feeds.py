@@ -11,7 +11,7 @@ from coframe.errors import CoframeError
 from coframe.viewer.clients._panel_feeds import PanelFeed
 from coframe.viewer.clients._update import Update
 from coframe.viewer.protocol.encoding import encode
-from coframe.viewer.protocol.server_messages import FieldStates, StateChange, TableColumn, TableRow, TopicTable
+from coframe.viewer.protocol.panel_messages import FieldStates, StateChange, TableColumn, TableRow, TopicTable
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

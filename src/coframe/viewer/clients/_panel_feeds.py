@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from coframe.errors import CoframeError
 from coframe.viewer.clients._update import Feed, Update
 from coframe.viewer.protocol.encoding import CurvePoints, encode, encode_curves
-from coframe.viewer.protocol.server_messages import CurveStatus, Inspection, LogEntries, LogEntry
+from coframe.viewer.protocol.panel_messages import CurveStatus, Inspection, LogEntries, LogEntry
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from coframe.viewer.clients._state import ClientState
     from coframe.viewer.panels.own_messages import LogLine
     from coframe.viewer.protocol.common import DisplayState
-    from coframe.viewer.protocol.server_messages import InspectedField
+    from coframe.viewer.protocol.panel_messages import InspectedField
     from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 
 __all__ = ["PanelFeed", "panel_feeds"]

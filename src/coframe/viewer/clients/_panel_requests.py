@@ -7,8 +7,8 @@ import asyncio
 from typing import TYPE_CHECKING, Any
 
 from coframe.viewer.protocol import client_messages
+from coframe.viewer.protocol.panel_messages import Completions
 from coframe.viewer.protocol.requests import BadRequestError
-from coframe.viewer.protocol.server_messages import Completions
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable

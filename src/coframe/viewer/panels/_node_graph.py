@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from coframe import _core
 from coframe._output.formatting import duration
-from coframe.viewer.protocol.server_messages import GraphLink, GraphNode, GraphTopic, NodeGraph
+from coframe.viewer.protocol.panel_messages import GraphLink, GraphNode, GraphTopic, NodeGraph
 from coframe.wire.endpoint_mismatch import mismatch_reasons
 from coframe.wire.graph import UNKNOWN_NODE
 from coframe.wire.names import full_name, ros_type

@@ -10,7 +10,7 @@ import numpy as np
 
 from coframe.messages import find
 from coframe.plotting.values import field_names
-from coframe.viewer.protocol.server_messages import InspectedField
+from coframe.viewer.protocol.panel_messages import InspectedField
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -11,7 +11,7 @@ from coframe.viewer.panels.message_fields import message_rows
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from coframe.viewer.protocol.server_messages import InspectedField
+    from coframe.viewer.protocol.panel_messages import InspectedField
     from coframe.viewer.sources.topic_messages import StampedMessage
 
 __all__ = ["TableMessage", "read_rows"]

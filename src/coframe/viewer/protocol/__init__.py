@@ -11,7 +11,8 @@ Conventions:
     names, topics and robot descriptions are data and must never be interpreted as HTML.
 
 Modules:
-    server_messages, binary_messages: Messages from the server; the rows of `coframe.viewer.displays` have its shapes.
+    server_messages, panel_messages: Text messages from the server; the second ones are those of the panels.
+    binary_messages: Binary messages from the server; the rows of `coframe.viewer.displays` have its shapes.
     client_messages: Messages that the page sends.
     replay_block: The contents of a replay file.
     common: Field types that several of them use.
