@@ -245,3 +245,40 @@ GARBAGE = [
     {"type": "problem", "text": "<img src=x onerror=window.hacked=1>" * 100, "hint": ""},
     {"type": "display", "id": 99, "state": "error", "text": "not requested"},
 ]
+
+
+# Local storage may contain anything: pages of other programs on this address, and of other versions, share it.
+SETTINGS = ("bookmarks", "displays", "dock-width", "groups", "panes", "plots", "rviz", "scene-panes", "states", "tab")
+SETTINGS += ("table-count", "table-topic", "views")
+GROUPS = [{"source": a, "group": b, "name": a, "enabled": True} for a, b in ("AB", "BA", "CC", ("D", ""), ("D", ""))]
+DISPLAY = {"class": "Grid", "enabled": True, "topic": None, "options": {}}
+MIXED_SETTINGS = {
+    "displays": [None, 5, *({**DISPLAY, "name": f"in {group}", "group": group} for group in "ABCD")],
+    "groups": [None, "x", *GROUPS],
+    "panes": ["plots", None, 5],
+    "plots": [None, {}, "map->base.x"],
+    "scene-panes": [None, {"kind": "top"}, {"kind": "top", "frame": None}],
+    "states": [[], 7, "/state.data"],
+    "views": [
+        None,
+        {"view": {"class": "Orbit", "options": {}}},
+        {"name": "kept", "view": {"class": "x", "options": {}}},
+    ],
+}
+
+
+@pytest.mark.parametrize("settings", [dict.fromkeys(SETTINGS), {key: {} for key in SETTINGS}, MIXED_SETTINGS])
+def test_settings_of_any_form_leave_the_page_usable(view, open_page, settings):
+    viewer = view(small_buffer(), fixed="map")
+    stored = [{"name": f"coframe.{key}", "value": json.dumps(value)} for key, value in settings.items()]
+    storage = {"cookies": [], "origins": [{"origin": viewer.url.rstrip("/"), "localStorage": stored}]}
+    page = open_page(f'{viewer.url}#view={{"class":"Orbit","options":null}}&layout=[1]', storage_state=storage).drawn()
+    notes = page.wait(lambda: len(page.texts("#toasts > *")) > 1 and page.texts("#toasts > *"), "both notes")
+    assert [part for part in ("view", "layout") if f"The {part} in the address" in "".join(notes)] == ["view", "layout"]
+    if settings is MIXED_SETTINGS:
+        page.until("document.querySelector('#pane-plots')?.hidden === false && coframe.panes.length === 1")
+        page.tab("displays")
+        assert page.evaluate("[...document.querySelectorAll('.display-group')].map(g => g.dataset.group)") == ["D"]
+        names = page.evaluate("[...document.querySelectorAll('.card')].map(card => card.dataset.display)")
+        assert [name for name in names if name.startswith("in ")] == ["in A", "in B", "in C", "in D"]
+        assert page.raw.locator("#views button:text('kept')").count() == 1

@@ -14,7 +14,7 @@ import type {
   DisplayOptions,
   DisplayTopic,
 } from "../protocol/messages";
-import { storeValue, loadStored } from "../util/storage";
+import { loadList, storeValue } from "../util/storage";
 import type { Theme } from "../util/theme";
 import type { View } from "../scene/view";
 import type { Model } from "../model/model";
@@ -28,7 +28,7 @@ import { TfDisplay } from "./tf";
 
 export class Displays {
   list: Display[] = [];
-  /** The groups of the .rviz file. */
+  /** The groups of the .rviz file and of the user. A group that contains another one stands before it. */
   groups: RvizGroup[] = [];
   private readonly meshes = new Meshes();
   private readonly context: Context;
@@ -164,13 +164,8 @@ export class Displays {
 
   /** Whether a group and all groups that contain it are enabled. */
   groupsEnabled(source: string | undefined): boolean {
-    let at = source;
-    for (let depth = 0; at && depth <= this.groups.length; depth++) {
-      const group = this.groups.find((other) => other.source === at);
-      if (group && !group.enabled) return false;
-      at = group?.group;
-    }
-    return true;
+    const group = source ? this.groups.find((other) => other.source === source) : undefined;
+    return !group || (group.enabled && this.groupsEnabled(group.group));
   }
 
   private setShown(display: Display, enabled: boolean): void {
@@ -205,7 +200,7 @@ export class Displays {
     this.areFromFile = true;
     for (const display of this.list) this.discard(display);
     this.list = [];
-    this.groups = (rviz.groups ?? []).map((group) => ({ ...group }));
+    this.groups = orderedGroups(rviz.groups ?? []).map((group) => ({ ...group }));
     for (const display of rviz.displays) this.create({ ...display, topic: display.topic ?? null });
     for (const robot of this.model.robots.values()) this.assignRobot(robot);
     this.notifyChange();
@@ -256,11 +251,11 @@ export class Displays {
   private start(rviz: RvizConfiguration | null): void {
     if (this.hasStarted) return;
     this.hasStarted = true;
-    const last = loadStored<DisplayConfig[]>("displays", []);
+    const last = loadList("displays", isConfig);
     if (rviz) this.apply(rviz);
-    else if (Array.isArray(last) && last.length > 0 && last.every(isConfig)) {
+    else if (last.length > 0) {
       this.showsNewTopics = false;
-      this.groups = loadStored<RvizGroup[]>("groups", []).filter(isGroup);
+      this.groups = orderedGroups(loadList("groups", isGroup));
       for (const config of last) {
         const enabled = config.enabled && this.groupsEnabled(config.group);
         this.create({ ...config, checked: config.enabled, enabled });
@@ -467,6 +462,12 @@ export class Displays {
   private notify(): void {
     for (const listener of this.listeners) listener();
   }
+}
+
+/** Returns the groups whose containing group, if any, stands before them: no group contains itself. */
+function orderedGroups(groups: readonly RvizGroup[]): RvizGroup[] {
+  const known = new Set([""]);
+  return groups.filter(({ source, group }) => known.has(group) && !known.has(source) && known.add(source));
 }
 
 function isGroup(value: unknown): value is RvizGroup {

@@ -3,7 +3,7 @@
 
 import type { Model } from "../model/model";
 import { link, linked } from "../util/link";
-import { storeValue, loadStored } from "../util/storage";
+import { isString, loadList, storeValue } from "../util/storage";
 import { toast } from "../util/toast";
 import type { Dock } from "./dock";
 
@@ -37,7 +37,7 @@ export class DockLauncher {
 
   /** Opens the panels of the link or of the last session. */
   restore(): void {
-    const wanted = linked("panel").length ? linked("panel") : loadStored<string[]>("panes", []);
+    const wanted = linked("panel").length ? linked("panel") : loadList("panes", isString);
     if (linked("plot").length && !wanted.includes("plots")) wanted.push("plots");
     if (this.dock || wanted.length) this.use((dock) => dock.restore(wanted));
   }

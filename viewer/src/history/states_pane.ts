@@ -8,7 +8,7 @@ import { COLORS } from "../plots/colors";
 import { computeShownRange, WINDOWS, zoomRange, type Range } from "../plots/range";
 import { h, iconButton, select, setText, shorten } from "../util/dom";
 import * as format from "../util/format";
-import { storeValue, loadStored } from "../util/storage";
+import { isString, loadList, loadStored, storeValue } from "../util/storage";
 import { toast } from "../util/toast";
 import { numbered, States } from "./states";
 
@@ -64,8 +64,8 @@ export class StatesPane implements Pane {
       }),
     ];
     this.body = h("div", { class: "states-body" }, this.input.element, this.list);
-    for (const field of loadStored<string[]>("states", []).slice(0, MAX_FIELDS))
-      if (typeof field === "string" && field.length <= MAX_TEXT) this.insert(field);
+    for (const field of loadList("states", isString).slice(0, MAX_FIELDS))
+      if (field.length <= MAX_TEXT) this.insert(field);
     model.on("states", (message) => {
       this.lines.find(({ states }) => states.id === message.id)?.states.receive(message);
       this.schedule();

@@ -2,7 +2,7 @@
 /** Which panels are open, where and how large: the settings of the last session, which saved views contain too. */
 
 import type { JsonObject } from "../protocol/messages";
-import { storeValue, loadStored } from "../util/storage";
+import { kindOf, loadStored, storeValue } from "../util/storage";
 
 const DEFAULTS: JsonObject = {
   "panel-shown": true,
@@ -21,6 +21,5 @@ export function currentLayout(): JsonObject {
 /** Stores a layout. The panels read it when they are restored. */
 export function storeLayout(layout: JsonObject): void {
   for (const [key, value] of Object.entries(DEFAULTS))
-    if (typeof layout[key] === typeof value && Array.isArray(layout[key]) === Array.isArray(value))
-      storeValue(key, layout[key]);
+    if (kindOf(layout[key]) === kindOf(value)) storeValue(key, layout[key]);
 }

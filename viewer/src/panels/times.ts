@@ -4,7 +4,7 @@
 import type { Model } from "../model/model";
 import { h, iconButton, shorten } from "../util/dom";
 import * as format from "../util/format";
-import { storeValue, loadStored } from "../util/storage";
+import { loadList, storeValue } from "../util/storage";
 import { parseTime } from "../util/times";
 import { toast } from "../util/toast";
 
@@ -93,10 +93,7 @@ export class TimesDialog {
   }
 
   private get storedBookmarks(): Bookmark[] {
-    const found = loadStored<Bookmark[]>(this.key, []);
-    return Array.isArray(found)
-      ? found.filter(({ stamp, name }) => /^\d+$/.test(stamp) && typeof name === "string")
-      : [];
+    return loadList(this.key, isBookmark);
   }
 
   private go(): void {
@@ -152,4 +149,9 @@ export class TimesDialog {
       ),
     );
   }
+}
+
+function isBookmark(value: unknown): value is Bookmark {
+  const { stamp, name } = (value ?? {}) as Partial<Bookmark>;
+  return typeof stamp === "string" && /^\d{1,19}$/.test(stamp) && typeof name === "string";
 }

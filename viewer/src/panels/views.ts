@@ -7,7 +7,7 @@ import type { View as CameraView } from "../scene/camera";
 import type { View } from "../scene/view";
 import { copyText, h, iconButton, shorten } from "../util/dom";
 import { link, linked } from "../util/link";
-import { storeValue, loadStored } from "../util/storage";
+import { loadList, storeValue } from "../util/storage";
 import { toast } from "../util/toast";
 import { currentLayout, storeLayout } from "./layout";
 
@@ -43,8 +43,7 @@ export class ViewsPanel {
     private readonly view: View,
     private readonly restoreLayout: () => void,
   ) {
-    const saved = loadStored<SavedView[]>("views", []);
-    this.saved = Array.isArray(saved) ? saved.filter((one) => isView(one.view)) : [];
+    this.saved = loadList("views", isSavedView);
     this.name.setAttribute("aria-label", "Name of the view");
     const button = (text: string, act: () => void): HTMLElement =>
       h("button", { type: "button", class: "small", on: { click: act } }, text);
@@ -95,16 +94,23 @@ export class ViewsPanel {
 
   /** Shows the view of the link with which the page was opened. */
   private openLinked(): void {
+    this.openPart("view", (view) => isView(view) && this.apply(view));
+    this.openPart("layout", (layout) => isObject(layout) && this.applyLayout(layout));
+  }
+
+  /** Removes a part from the address and applies it, which returns whether it is valid. */
+  private openPart(key: "view" | "layout", apply: (value: unknown) => boolean): void {
+    const [text] = linked(key);
+    link(key, []);
+    if (text === undefined) return;
+    let isValid = false;
     try {
-      const view = JSON.parse(linked("view")[0] ?? "null") as unknown;
-      if (isView(view)) this.apply(view);
-      const layout = JSON.parse(linked("layout")[0] ?? "null") as unknown;
-      if (isObject(layout)) this.applyLayout(layout);
+      isValid = apply(JSON.parse(text));
     } catch {
-      toast("The view in the address of the page is not valid.");
+      // It is not JSON, or a camera with these numbers cannot exist.
     }
-    link("view", []);
-    link("layout", []);
+    if (!isValid)
+      toast(`The ${key} in the address of the page is not valid.`, "Copy the link again in the other page.");
   }
 
   private open({ view, layout }: SavedView): void {
@@ -112,18 +118,19 @@ export class ViewsPanel {
     if (isObject(layout)) this.applyLayout(layout);
   }
 
-  private applyLayout(layout: JsonObject): void {
+  private applyLayout(layout: JsonObject): boolean {
     storeLayout(layout);
     link("panel", []); // The panels of the layout, not those of the address.
     this.restoreLayout();
+    return true;
   }
 
   private get current(): CameraView {
     return this.view.savedView;
   }
 
-  private apply(view: CameraView): void {
-    this.view.setView(view);
+  private apply(view: CameraView): boolean {
+    return this.view.setView(view);
   }
 
   private update(): void {
@@ -228,5 +235,10 @@ function isObject(value: unknown): value is JsonObject {
 
 function isView(value: unknown): value is CameraView {
   const view = value as Partial<CameraView> | null;
-  return typeof view?.class === "string" && typeof view.options === "object" && !Array.isArray(view.options);
+  return typeof view?.class === "string" && isObject(view.options);
+}
+
+function isSavedView(value: unknown): value is SavedView {
+  const saved = value as Partial<SavedView> | null;
+  return typeof saved?.name === "string" && isView(saved.view);
 }

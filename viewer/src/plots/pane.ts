@@ -7,7 +7,7 @@ import type { Model } from "../model/model";
 import { copyText, h, iconButton, select, setText, shorten } from "../util/dom";
 import * as format from "../util/format";
 import { link, linked } from "../util/link";
-import { storeValue, loadStored } from "../util/storage";
+import { isString, loadList, loadStored, storeValue } from "../util/storage";
 import type { Theme } from "../util/theme";
 import { toast } from "../util/toast";
 import { Chart, TIME_AXIS_PX, valueText, type ChartEvents, type ChartStyle } from "./chart";
@@ -49,9 +49,9 @@ export class PlotsPane implements Pane {
     theme: Theme,
   ) {
     this.seconds = Number(linked("window")[0] ?? loadStored("plot-window", -1));
-    const expressions = linked("plot").length ? linked("plot") : loadStored<string[]>("plots", []);
+    const expressions = linked("plot").length ? linked("plot") : loadList("plots", isString);
     for (const expression of expressions.slice(0, MAX_CURVES))
-      if (typeof expression === "string" && expression.length <= MAX_TEXT) this.insert(expression);
+      if (expression.length <= MAX_TEXT) this.insert(expression);
     this.input = new CompletedInput(
       model,
       "expression",

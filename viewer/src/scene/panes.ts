@@ -5,7 +5,7 @@ import type * as THREE from "three";
 import { fillSelect, h, iconButton, select } from "../util/dom";
 import * as format from "../util/format";
 import type { Pose, Quaternion, Vector } from "../util/math";
-import { storeValue, loadStored } from "../util/storage";
+import { loadList, storeValue } from "../util/storage";
 import type { Model } from "../model/model";
 import type { FramePoses } from "./frame_poses";
 import { LabelLayer, type Label } from "./labels";
@@ -13,6 +13,8 @@ import { PaneCamera, type PaneKind } from "./pane_camera";
 import type { SceneRenderer } from "./renderer";
 
 export const MAX_PANES = 3;
+/** The key of the settings; "panes" is that of the panels next to the scene. */
+const STORED = "scene-panes";
 const KINDS: readonly (readonly [PaneKind, string])[] = [
   ["top", "Top"],
   ["front", "Front"],
@@ -107,8 +109,7 @@ export class Panes {
     private readonly contentBounds: () => THREE.Box3,
   ) {
     model.on("tree", () => this.fillFrames());
-    const last = loadStored<PaneSettings[]>("panes", []);
-    if (Array.isArray(last)) for (const settings of last.slice(0, MAX_PANES)) if (isValid(settings)) this.add(settings);
+    for (const settings of loadList(STORED, isPaneSettings)) this.add(settings);
   }
 
   get count(): number {
@@ -157,7 +158,7 @@ export class Panes {
   notifyChange(): void {
     this.root.hidden = this.list.length === 0;
     storeValue(
-      "panes",
+      STORED,
       this.list.map(({ settings }) => settings),
     );
     this.renderer.setExtraViews(
@@ -183,7 +184,7 @@ export class Panes {
   }
 }
 
-function isValid(value: unknown): value is PaneSettings {
+function isPaneSettings(value: unknown): value is PaneSettings {
   const settings = value as Partial<PaneSettings> | null;
   const known = KINDS.some(([kind]) => kind === settings?.kind);
   return known && (settings?.frame === null || typeof settings?.frame === "string");
