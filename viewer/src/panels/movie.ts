@@ -54,15 +54,20 @@ export class MovieRecorder {
     const parts: Blob[] = [];
     const recorder = new MediaRecorder(this.canvas.captureStream(FPS), { mimeType: format });
     recorder.addEventListener("dataavailable", ({ data }) => parts.push(data));
-    recorder.addEventListener("error", () => toast("The movie ended because of an error of the browser."));
+    recorder.addEventListener("error", () => {
+      toast("The browser cannot continue the movie.", "What was recorded so far is downloaded.");
+      if (this.recorder === recorder) this.stop();
+    });
     recorder.addEventListener("stop", () => {
       const type = format.split(";")[0] as string;
-      download(`${fileName(this.model)}.${type.split("/")[1]}`, new Blob(parts, { type }));
+      const movie = new Blob(parts, { type });
+      if (movie.size) download(`${fileName(this.model)}.${type.split("/")[1]}`, movie);
+      else toast("The movie is empty.", "Record it while the scene is visible.");
     });
+    recorder.start(1000);
     this.recorder = recorder;
     this.started = performance.now();
     this.view.refresh();
-    recorder.start(1000);
     this.timer = window.setInterval(() => this.showTime(), 500);
     this.showTime();
   }
