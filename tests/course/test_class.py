@@ -300,6 +300,42 @@ def test_autograders_contain_all_that_they_need(wheel, tmp_path):
         write_autograder("docker", tmp_path / "e", tmp_path / "numpy-1.whl")
 
 
+@pytest.mark.parametrize(
+    ("platform", "tags", "problem"),
+    [
+        ("gradescope", "cp311-cp311-manylinux_2_28_aarch64", "gradescope runs Linux with glibc on x86_64"),
+        ("gradescope", "cp311-cp311-musllinux_1_2_x86_64", "runs Linux with glibc"),
+        ("classroom", "cp311-cp311-linux_aarch64", "classroom runs Linux with glibc on x86_64"),
+        ("classroom", "cp311-cp311-macosx_11_0_x86_64", "classroom runs Linux"),
+        ("docker", "cp311-cp311-manylinux_2_28_armv7l", "on x86_64 or aarch64"),
+        ("docker", "pp310-pypy310_pp73-linux_x86_64", "the graders run CPython"),
+        ("docker", "cp313-cp313t-linux_x86_64", "with ABI cp313t"),
+        ("docker", 'cp313-cp313-linux_x86_64"$(id)"', "is not a wheel of coframe"),
+        ("docker", "cp311-cp311-manylinux_2_28_aarch64", ""),
+        ("gradescope", "cp311-cp311-manylinux_2_17_x86_64.manylinux2014_x86_64", ""),
+        ("gradescope", "cp311-abi3-manylinux_2_28_x86_64", ""),
+    ],
+)
+def test_a_wheel_must_fit_the_grader(wheel, tmp_path, platform, tags, problem):
+    given = wheel.rename(tmp_path / f"coframe-1.2-{tags}.whl")
+    result = CliRunner().invoke(app, ["lab", "autograder", platform, "-o", str(tmp_path / "o"), "--wheel", str(given)])
+    assert (result.exit_code, (tmp_path / "o").exists()) == ((1, False) if problem else (0, True)), result.output
+    assert problem in " ".join(result.output.split())
+    assert "C library" not in result.output
+
+
+def test_a_wheel_of_this_machine_or_of_another_project_is_noticed(wheel, tmp_path):
+    words = ["lab", "autograder", "docker", "-o", str(tmp_path / "o"), "--wheel", str(wheel)]
+    result = CliRunner().invoke(app, words)
+    assert result.exit_code == 0
+    assert "may need the C library of the machine that built it" in " ".join(result.output.split())
+    with zipfile.ZipFile(wheel, "w") as archive:
+        archive.writestr("numpy/__init__.py", "")
+    other = CliRunner().invoke(app, [*words[:4], str(tmp_path / "p"), *words[5:]])
+    assert (other.exit_code, (tmp_path / "p").exists()) == (1, False)
+    assert "is not a wheel of coframe" in " ".join(other.output.split())
+
+
 def test_options_of_a_class_need_each_other(tmp_path):
     for words, sentence in (
         (["--roster", "x.csv"], "--roster: only for a class"),

@@ -24,7 +24,7 @@ from coframe.cli.view import open_browser, optional_viewer, port_option
 from coframe.connection.connection import connect
 from coframe.course import formats
 from coframe.course.assignment import ASSIGNMENT_FILE
-from coframe.course.autograder import PLATFORMS, write_autograder
+from coframe.course.autograder import PLATFORMS, needs_newest_glibc, write_autograder
 from coframe.course.checking import check_folder
 from coframe.course.faults import FAULTS, draw, named_fault
 from coframe.course.feedback import FEEDBACK_FORMATS
@@ -296,6 +296,11 @@ def autograder(platform: str, output: Path, wheel: Path, variant: int | None, la
     with run_to_completion():
         for path in write_autograder(platform, output, wheel, variant, choose_language(language)):
             print(f"created {printable(str(path))}")
+        if needs_newest_glibc(wheel):
+            warn(
+                f"{printable(wheel.name)} may need the C library of the machine that built it, and the grader's may be "
+                "older. make wheels names the wheel after the oldest one on which it runs"
+            )
 
 
 @lab.command("break", short_help="Start a system with a fault to diagnose.")

@@ -18,10 +18,13 @@ if TYPE_CHECKING:
 
     from coframe.course.translation.language import Language
 
-__all__ = ["PLATFORMS", "write_autograder"]
+__all__ = ["PLATFORMS", "needs_newest_glibc", "write_autograder"]
 
-_WHEEL = re.compile(r"coframe-(?P<version>[^-]+)(-\d[^-]*)?-(?P<python>[^-]+)-(?P<abi>[^-]+)-(?P<platform>[^-]+)\.whl")
-_DEFAULT_PYTHON = "3.12"  # for a wheel of any version
+# The name becomes part of scripts, so it has only the characters of a version and of tags.
+_WHEEL = re.compile(r"coframe-[\w.+]+(-\d\w*)?-(?P<python>\w+)-(?P<abi>\w+)-(?P<platform>[\w.]+)\.whl", re.ASCII)
+_DEFAULT_PYTHON = "3.12"  # for a wheel of the stable ABI, which runs on any version
+# Gradescope and GitHub run Linux on x86-64 with glibc. Docker runs the image on the processor of its machine.
+_PROCESSORS = {"gradescope": ("x86_64",), "classroom": ("x86_64",), "docker": ("x86_64", "aarch64")}
 _EXTRAS = "all"
 _GRADESCOPE_ARCHIVE = "autograder.zip"
 _EXECUTABLE = 0o755
@@ -127,9 +130,10 @@ def write_autograder(
         language: The language of the feedback.
 
     Raises:
-        CourseError: The wheel is not one of coframe, or a file already exists or cannot be written.
+        CourseError: The wheel is not one of coframe or cannot be installed there, or a file already exists or cannot
+            be written.
     """
-    plan = _Plan(wheel, _python_of(wheel), variant, language)
+    plan = _Plan(wheel, _python_of(wheel, platform), variant, language)
     try:
         folder.mkdir(parents=True, exist_ok=True)
         return PLATFORMS[platform](plan, folder)
@@ -139,20 +143,43 @@ def write_autograder(
         ) from None
 
 
-def _python_of(wheel: Path) -> str:
+def needs_newest_glibc(wheel: Path) -> bool:
+    """Return whether a wheel may need the C library of the machine that built it: its name states no older one."""
+    match = _WHEEL.fullmatch(wheel.name)
+    return match is not None and match["platform"].startswith("linux_")
+
+
+def _python_of(wheel: Path, platform: str) -> str:
     """Return the version of Python that a wheel needs."""
     match = _WHEEL.fullmatch(wheel.name)
-    if match is None or not zipfile.is_zipfile(wheel):
+    if match is None or not _contains_coframe(wheel):
         raise CourseError(
             f"{wheel} is not a wheel of coframe.",
             hint="Build one in a checkout of coframe: make wheels.",
         )
-    if not any(word in match["platform"] for word in ("linux", "any")):
+    version = re.fullmatch(r"cp3(\d+)", match["python"])
+    if version is None or match["abi"] not in {match["python"], "abi3"}:
         raise CourseError(
-            f"{wheel.name} is for {match['platform']}, but the graders run Linux.", hint="Build the wheel on Linux."
+            f"{wheel.name} is for {match['python']} with ABI {match['abi']}, but the graders run CPython with the GIL.",
+            hint="Build the wheel with CPython: make wheels.",
         )
-    version = re.fullmatch(r"cp(\d)(\d+)", match["python"])
-    return f"{version[1]}.{version[2]}" if version and match["abi"] != "abi3" else _DEFAULT_PYTHON
+    usable = re.compile(rf"(many)?linux\w*_({'|'.join(_PROCESSORS[platform])})")
+    if not any(map(usable.fullmatch, match["platform"].split("."))):
+        processors = " or ".join(_PROCESSORS[platform])
+        raise CourseError(
+            f"{wheel.name} is for {match['platform']}, but {platform} runs Linux with glibc on {processors}.",
+            hint="Build the wheel on such a machine: make wheels.",
+        )
+    return _DEFAULT_PYTHON if match["abi"] == "abi3" else f"3.{version[1]}"
+
+
+def _contains_coframe(wheel: Path) -> bool:
+    """Return whether a file is a zip file with the package coframe."""
+    try:
+        with zipfile.ZipFile(wheel) as archive:
+            return "coframe/__init__.py" in archive.namelist()
+    except (OSError, zipfile.BadZipFile):
+        return False
 
 
 def _write(path: Path, text: str, *, executable: bool = False) -> Path:
