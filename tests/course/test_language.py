@@ -4,6 +4,7 @@
 import ast
 import re
 import runpy
+import time
 from pathlib import Path
 
 import pytest
@@ -12,11 +13,13 @@ from click.testing import CliRunner
 from coframe.cli.app import app
 from coframe.course import formats
 from coframe.course._sheet import Sheet
+from coframe.course.assignment import recorded_language
 from coframe.course.faults import FAULTS, named_fault
 from coframe.course.feedback import feedback
 from coframe.course.folders import create_folder, file_names
 from coframe.course.handbook import chapters, write_pages
 from coframe.course.rubric import RUBRIC
+from coframe.course.translation import catalogue
 from coframe.course.translation.catalogue import DOMAINS, Catalogue, languages, messages
 from coframe.course.translation.language import ENGLISH, Language, choose_language
 from coframe.errors import CourseError
@@ -178,7 +181,75 @@ def test_the_commands_speak_german(tmp_path, monkeypatch):
     assert answered.startswith("Richtig: Zwei Knoten veröffentlichen den Arm")
     unknown = run("handbook", "--language", "xx")
     assert unknown.exit_code == 1
-    assert "Languages: en, de" in str(unknown.output) + str(getattr(unknown.exception, "hint", ""))
+    assert "Languages: en, de" in unknown.output
+
+
+def test_errors_are_in_the_language_of_the_command(tmp_path):
+    def error_of(*words):
+        result = CliRunner().invoke(app, ["lab", *words])
+        assert result.exit_code == 1
+        assert isinstance(result.exception, SystemExit), "a traceback"
+        return result.output
+
+    place = str(tmp_path / "lab")
+    assert "Es gibt keinen Ordner" in error_of("check", place, "--language", "de")
+    create_folder(tmp_path / "lab", None, ENGLISH)
+    again = error_of("new", place, "--language", "de")
+    assert "enthält bereits" in again
+    assert "nichts wird überschrieben" in again
+    for words in (["break", "3", "--answer", "x"], ["check", place], ["handbook"], ["new", place]):
+        assert "no language '../../x'" in error_of(*words, "--language", "../../x")
+
+
+def test_a_folder_is_graded_in_the_language_in_which_it_was_created(tmp_path, monkeypatch):
+    for name in ("COFRAME_LANGUAGE", "LC_ALL", "LC_MESSAGES", "LANG"):
+        monkeypatch.delenv(name, raising=False)
+    for student, language in (("ada", GERMAN), ("bob", ENGLISH)):
+        create_folder(tmp_path / "class" / student, None, language)
+    path = tmp_path / "class" / "ada"
+    assert recorded_language(path) == "de"
+
+    def graded(*words):
+        return CliRunner().invoke(app, ["lab", "check", *map(str, words), "--only", "urdf"]).output
+
+    assert "Punkte in diesem Teil der Prüfung" in graded(path)
+    assert "Points in this part" in graded(path, "--language", "en")
+    graded(tmp_path / "class", "--all", "--feedback", tmp_path / "feedback")
+    for student, language in (("ada", "de"), ("bob", "en")):
+        assert f'<html lang="{language}">' in (tmp_path / "feedback" / f"{student}.html").read_text(encoding="utf-8")
+    for text in ('{"language": ["de"]}', '{"language": "../../x"}', "[]", "{", '{"language": "' + "x" * 9999 + '"}'):
+        (path / "lab.json").write_text(text)
+        assert choose_language(None, recorded_language(path)) is ENGLISH
+
+
+def test_sentences_of_students_are_translated_in_a_short_time():
+    begin = time.process_time()
+    parts = ("a: ", "; ", ". ", ", ", " and ", "a and b, c. d; e: f of g ", " and w are sin(", " of ")
+    for length in (499, 999, 9_999):
+        for part in parts:
+            sentence = ("x " + part * length)[:length]
+            assert GERMAN.text(sentence)
+    assert time.process_time() - begin < 15.0  # 2 s; minutes if all ways to divide a sentence were tried
+    assert GERMAN.text("a: " * 300 + "x") == "a: " * 300 + "x"
+
+
+def test_a_translation_with_other_placeholders_is_an_error(tmp_path, monkeypatch):
+    monkeypatch.setattr(catalogue, "FOLDER", tmp_path)
+    (tmp_path / "xx" / "LC_MESSAGES").mkdir(parents=True)
+    path = tmp_path / "xx" / "LC_MESSAGES" / "grader.po"
+    for text, problem in (
+        ('msgid "no {0}"\nmsgstr "ohne {1}"\n', "'ohne {1}' has other placeholders than 'no {0}'"),
+        ('msgid "a"\nmsgstr 9**9**9\n', "is damaged"),
+        ('msgid "a"\nmsgstr "b\n', "is damaged"),
+    ):
+        path.write_text(text)
+        messages.cache_clear()
+        with pytest.raises(CourseError, match=re.escape(problem)):
+            messages("xx", "grader")
+    messages.cache_clear()
+    assert languages() == ["en", "xx"]
+    monkeypatch.setattr(catalogue, "FOLDER", tmp_path / "missing")
+    assert languages() == ["en"]
 
 
 def test_fuzzy_and_empty_entries_count_as_missing():
@@ -186,6 +257,6 @@ def test_fuzzy_and_empty_entries_count_as_missing():
         def read(self):
             return 'msgid "a"\nmsgstr "b"\n\n#, fuzzy\nmsgid "c"\nmsgstr "d"\n\nmsgid "e"\nmsgstr ""\n'
 
-    catalogue = Catalogue(File())
-    assert catalogue.messages == {"a": "b"}
-    assert (catalogue.gettext("a"), catalogue.gettext("c")) == ("b", "c")
+    found = Catalogue(File())
+    assert found.messages == {"a": "b"}
+    assert (found.gettext("a"), found.gettext("c")) == ("b", "c")

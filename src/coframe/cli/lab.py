@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import shlex
 import sys
@@ -23,7 +24,7 @@ from coframe.cli.progress import item_progress
 from coframe.cli.view import open_browser, optional_viewer, port_option
 from coframe.connection.connection import connect
 from coframe.course import formats
-from coframe.course.assignment import ASSIGNMENT_FILE
+from coframe.course.assignment import ASSIGNMENT_FILE, recorded_language
 from coframe.course.autograder import PLATFORMS, needs_newest_glibc, write_autograder
 from coframe.course.checking import check_folder
 from coframe.course.faults import FAULTS, draw, named_fault
@@ -42,7 +43,7 @@ from coframe.course.translation.language import choose_language
 from coframe.errors import CourseError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from coframe.course.running import NamedCommand
     from coframe.course.translation.language import Language
@@ -71,7 +72,8 @@ roster_option = click.option(
 language_option = click.option(
     "--language",
     metavar="CODE",
-    help=f"Language of the course: {', '.join(languages())}. [default: $COFRAME_LANGUAGE, or the locale]",
+    help=f"Language of the course: {', '.join(languages())}. "
+    "[default: $COFRAME_LANGUAGE, that of the folder, or the locale]",
 )
 lab = CommandGroup(
     "lab",
@@ -102,8 +104,7 @@ def new(folder: Path, variant: int | None, roster: Path | None, as_zip: bool, la
         fail("--zip applies to a class", "Add --roster, or omit --zip.", code=2)
     if roster is not None and variant is not None:
         fail("--variant and --roster exclude each other", "The variants are in the roster.", code=2)
-    with run_to_completion():
-        chosen = choose_language(language)
+    with run_to_completion(), _in_language(language) as chosen:
         if roster is not None:
             students = read_roster(roster)
             places = create_class(folder, students, as_zip=as_zip, language=chosen)
@@ -144,10 +145,10 @@ def run(
     seconds = None if duration is None else duration.seconds
     if complete and joints:
         fail("--joints applies to step 2", "Omit it, or omit --complete.", code=2)
-    with run_until_interrupted():
-        programs = programs_of(_folder(folder), COMPLETE_TREE_FILES if complete else NODE_FILES)
+    student = _folder(folder)
+    with run_until_interrupted(), _in_language(None, recorded_language(student)) as language:
+        programs = programs_of(student, COMPLETE_TREE_FILES if complete else NODE_FILES)
         programs += simulation(joints=joints, gripper=gripper)
-        language = choose_language()
         sentence = "Your nodes are running with a simulated robot. Press Ctrl-C to stop them. The viewer shows them:"
         print(language.text(sentence), flush=True)
         _run(programs, seconds, browser=browser, port=port, names_silent=True)
@@ -238,19 +239,18 @@ def check(
         fail("--moodle and --canvas need the students", "Add --roster FILE.", code=2)
     if resume and not output:
         fail("--resume continues an earlier run", "Add -o with the file of that run.", code=2)
-    with run_to_completion():
-        spoken = choose_language(language)
+    student = _folder(folder)
+    with run_to_completion(), _in_language(language, "" if everyone else recorded_language(student)) as spoken:
         if problem := isolation_problem():
             warn(spoken.text(problem))
         if everyone:
             grade_class(
                 ClassOptions(
                     folder or Path("lab"), output, jobs, variant, chosen, roster, resume, moodle, canvas, column,
-                    feedback, feedback_format, similarity, as_json, spoken,
+                    feedback, feedback_format, similarity, as_json, language,
                 )
             )  # fmt: skip
             return
-        student = _folder(folder)
         check_outputs((record, gradescope, classroom), student)
         try:
             with item_progress("checking", len(chosen)) as progress:
@@ -293,8 +293,8 @@ def autograder(platform: str, output: Path, wheel: Path, variant: int | None, la
 
     Example: coframe lab autograder gradescope -o autograder --wheel dist/coframe-1.0-cp312-cp312-linux_x86_64.whl
     """
-    with run_to_completion():
-        for path in write_autograder(platform, output, wheel, variant, choose_language(language)):
+    with run_to_completion(), _in_language(language) as chosen:
+        for path in write_autograder(platform, output, wheel, variant, chosen):
             print(f"created {printable(str(path))}")
         if needs_newest_glibc(wheel):
             warn(
@@ -338,15 +338,14 @@ def break_(
         fail("give either a number or --random SEED", f"Numbers: 1 to {len(FAULTS)}.", code=2)
     chosen = draw(seed or "") if number is None else number
     words = f"--random {shlex.quote(seed or '')}" if number is None else f"{number}"
-    spoken = choose_language(language)
-    if answer is not None:
-        _print_verdict(chosen, answer, spoken)
-        return
     seconds = None if duration is None else duration.seconds
-    print(spoken.text(f"System {words} is running in this ROS domain. What is wrong with it? Stop it with Ctrl-C."))
-    print(spoken.text(f'Then answer with: coframe lab break {words} --answer "FAULT", where FAULT is one of:'))
-    print(f"  {_fault_names(spoken)}", flush=True)
-    with run_until_interrupted():
+    with run_until_interrupted(), _in_language(language, recorded_language(_folder(None))) as spoken:
+        if answer is not None:
+            _print_verdict(chosen, answer, spoken)
+            return
+        print(spoken.text(f"System {words} is running in this ROS domain. What is wrong with it? Stop it with Ctrl-C."))
+        print(spoken.text(f'Then answer with: coframe lab break {words} --answer "FAULT", where FAULT is one of:'))
+        print(f"  {_fault_names(spoken)}", flush=True)
         _run(FAULTS[chosen - 1].programs, seconds, browser=browser, port=port)
 
 
@@ -373,8 +372,7 @@ def handbook(
 
     Example: coframe lab handbook -o handbook
     """
-    with run_to_completion():
-        spoken = choose_language(language)
+    with run_to_completion(), _in_language(language, recorded_language(_folder(None))) as spoken:
         if output is not None:
             _write_handbook(output, chapter, spoken, slides=slides, browser=browser)
             return
@@ -403,6 +401,16 @@ def _write_handbook(folder: Path, chapter: int | None, language: Language, *, sl
     print(page.resolve())
     if browser and sys.stdout.isatty():
         open_browser(page.resolve().as_uri())
+
+
+@contextlib.contextmanager
+def _in_language(code: str | None, recorded: str = "") -> Iterator[Language]:
+    """Choose the language of a command, in which its errors are raised, too."""
+    language = choose_language(code, recorded)
+    try:
+        yield language
+    except CourseError as error:
+        raise CourseError(language.text(str(error)), hint=language.text(error.hint)) from None
 
 
 def _folder(given: Path | None) -> Path:

@@ -15,6 +15,7 @@ from coframe._output.escaping import csv_cell
 from coframe.cli.output import printable, report_console
 from coframe.cli.progress import item_progress
 from coframe.course import formats
+from coframe.course.assignment import recorded_language
 from coframe.course.checking import check_class
 from coframe.course.class_folder import Submission, submissions
 from coframe.course.class_journal import Journal, fingerprint
@@ -23,6 +24,7 @@ from coframe.course.gradebooks import StudentGrade, Table, canvas_table, moodle_
 from coframe.course.roster import Roster, Student, read_roster
 from coframe.course.similarity import similarities
 from coframe.course.submitted import check_outputs
+from coframe.course.translation.language import choose_language
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -54,7 +56,7 @@ class ClassOptions(NamedTuple):
         feedback_format: One of FEEDBACK_FORMATS.
         similarity: The CSV file for similar programs, or None.
         as_json: Whether to print all reports.
-        language: The language of the feedback.
+        language: The code of the language of the feedback, or None for that of each folder.
     """
 
     folder: Path
@@ -71,7 +73,7 @@ class ClassOptions(NamedTuple):
     feedback_format: str
     similarity: Path | None
     as_json: bool
-    language: Language
+    language: str | None
 
 
 def grade_class(options: ClassOptions) -> None:
@@ -187,25 +189,32 @@ class _Grading:
 
     def _student_grades(self) -> list[StudentGrade]:
         """Return the grade of each student of the roster, whose best submission counts."""
-        by_key: dict[str, dict[str, Any]] = {}
+        by_key: dict[str, tuple[str, dict[str, Any]]] = {}
         for name, report in self.reports.items():
             student = self.students[name]
-            if student is not None and report["earned"] >= by_key.get(student.key, report)["earned"]:
-                by_key[student.key] = report
+            if student is not None and report["earned"] >= by_key.get(student.key, (name, report))[1]["earned"]:
+                by_key[student.key] = name, report
         students = () if self.roster is None else self.roster.students
         return [
-            StudentGrade(each, total(by_key[each.key]), formats.total_line(by_key[each.key], self.options.language))
+            StudentGrade(each, total(by_key[each.key][1]), self._total_line(*by_key[each.key]))
             if each.key in by_key
             else StudentGrade(each, None)
             for each in students
         ]
+
+    def _total_line(self, name: str, report: dict[str, Any]) -> str:
+        return formats.total_line(report, self._language(name))
+
+    def _language(self, name: str) -> Language:
+        """Return the language of the feedback for a submission."""
+        return choose_language(self.options.language, recorded_language(self.submissions[name].folder))
 
     def _write_feedback(self, folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         for name, report in self.reports.items():
             student = self.students[name]
             title, key = (name, name) if student is None else (student.name, student.key)
-            text = feedback(title, report, self.options.feedback_format, self.options.language)
+            text = feedback(title, report, self.options.feedback_format, self._language(name))
             path = folder / f"{_safe_name(key)}.{self.options.feedback_format}"
             write_complete(path, text.encode(errors="backslashreplace"))
 

@@ -7,7 +7,7 @@ import json
 import math
 import os
 import random
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe._files.os_errors import reason
 from coframe.course.submitted import read_submitted
@@ -16,9 +16,9 @@ from coframe.errors import CourseError
 if TYPE_CHECKING:
     from pathlib import Path
 
-__all__ = ["ASSIGNMENT_FILE", "Assignment", "Mount", "assignment_of", "read_assignment"]
+__all__ = ["ASSIGNMENT_FILE", "Assignment", "Mount", "assignment_of", "read_assignment", "recorded_language"]
 
-ASSIGNMENT_FILE = "lab.json"  # in a student's folder; contains the variant's seed
+ASSIGNMENT_FILE = "lab.json"  # in a student's folder; contains the variant's seed and the language
 _LAB = "09-02"
 NO_ROTATION = (0.0, 0.0, 0.0, 1.0)
 # A rotation of 90 degrees about y: the z axis of the camera points along the gripper.
@@ -105,19 +105,34 @@ def read_assignment(folder: Path) -> Assignment:
     path = folder / ASSIGNMENT_FILE
     if not os.path.lexists(path):
         return Assignment()
-    try:
-        content = json.loads(read_submitted(path))
-    except (OSError, ValueError, RecursionError) as error:
-        raise CourseError(f"Cannot read {path}: {reason(error)}", hint=_HINT) from None
-    variant = content.get("variant") if isinstance(content, dict) else None
-    if not isinstance(content, dict) or content.get("lab") != _LAB or not isinstance(variant, int | None):
+    content = _read(path)
+    variant = content.get("variant")
+    if content.get("lab") != _LAB or not isinstance(variant, int | None):
         raise CourseError(f"{path} does not describe an assignment of lab {_LAB}.", hint=_HINT)
     return assignment_of(variant)
 
 
-def assignment_file(assignment: Assignment) -> str:
-    """Return the text of the file ``lab.json``."""
-    return json.dumps({"lab": _LAB, "variant": assignment.variant}, indent=2) + "\n"
+def recorded_language(folder: Path) -> str:
+    """Return the code of the language in which a student's folder was created, or "" if ``lab.json`` has none."""
+    try:
+        code = _read(folder / ASSIGNMENT_FILE).get("language")
+    except CourseError:  # The grade says what is wrong with the file.
+        return ""
+    return code if isinstance(code, str) else ""
+
+
+def assignment_file(assignment: Assignment, language: str) -> str:
+    """Return the text of the file ``lab.json``, with the code of the language of the tasks."""
+    return json.dumps({"lab": _LAB, "variant": assignment.variant, "language": language}, indent=2) + "\n"
+
+
+def _read(path: Path) -> dict[str, Any]:
+    """Return the content of ``lab.json``, or an empty one if it is not an object."""
+    try:
+        content = json.loads(read_submitted(path))
+    except (OSError, ValueError, RecursionError) as error:
+        raise CourseError(f"Cannot read {path}: {reason(error)}", hint=_HINT) from None
+    return content if isinstance(content, dict) else {}
 
 
 _HINT = "Create the folder again with coframe lab new, and copy your nodes into it."

@@ -52,7 +52,7 @@ def create_folder(folder: Path, variant: int | None, language: Language = ENGLIS
         folder.mkdir(parents=True, exist_ok=True)
         for name in names:
             write_complete(folder / name, _filled(name, assignment, language).encode())
-        write_complete(folder / ASSIGNMENT_FILE, assignment_file(assignment).encode())
+        write_complete(folder / ASSIGNMENT_FILE, assignment_file(assignment, language.code).encode())
     except OSError as error:
         for name in (*names, ASSIGNMENT_FILE):
             with suppress(OSError):  # The file was not written yet.

@@ -6,6 +6,7 @@ from __future__ import annotations
 import ast
 import gettext
 import io
+import re
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,6 +21,7 @@ __all__ = ["DOMAINS", "FOLDER", "Catalogue", "languages", "messages", "write_po"
 # Each language has a folder LANGUAGE/LC_MESSAGES here, with a file DOMAIN.po for each domain.
 FOLDER = Path(__file__).resolve().parents[1] / "locale"
 DOMAINS = ("grader", "stubs", "handbook")
+_PLACEHOLDER = re.compile(r"\{\d+\}|@[A-Z0-9_]+@")
 _KEYWORDS = ("msgid", "msgstr")
 _HEADER = "# SPDX-License-Identifier: Apache-2.0\n"
 
@@ -69,20 +71,27 @@ def messages(language: str, domain: str) -> Mapping[str, str]:
     """Return the translations of a domain; none if the language has no file for it.
 
     Raises:
-        CourseError: The file is damaged.
+        CourseError: The file is damaged, or a translation has other placeholders than its message.
     """
     path = FOLDER / language / "LC_MESSAGES" / f"{domain}.po"
     if not path.is_file():
         return {}
     try:
-        return Catalogue(io.StringIO(path.read_text(encoding="utf-8"))).messages  # type: ignore[arg-type]
+        found = Catalogue(io.StringIO(path.read_text(encoding="utf-8"))).messages  # type: ignore[arg-type]
     except (ValueError, SyntaxError) as error:
         raise CourseError(f"The catalogue {path} is damaged: {error}", hint="Check it with msgfmt -c.") from None
+    for message, text in found.items():
+        if sorted(_PLACEHOLDER.findall(message)) != sorted(_PLACEHOLDER.findall(text)):
+            raise CourseError(
+                f"The catalogue {path} is damaged: {text!r} has other placeholders than {message!r}.",
+                hint="Use each placeholder of the message once.",
+            )
+    return found
 
 
 def languages() -> list[str]:
     """Return the languages of the course, English first."""
-    return ["en", *sorted(path.name for path in FOLDER.iterdir() if (path / "LC_MESSAGES").is_dir())]
+    return ["en", *sorted(path.parent.name for path in FOLDER.glob("*/LC_MESSAGES"))]
 
 
 def write_po(language: str, entries: Mapping[str, str]) -> str:

@@ -7,6 +7,7 @@ catalogue can have placeholders {0}, {1} for the values of the English sentence,
 
 from __future__ import annotations
 
+import itertools
 import os
 import re
 from functools import cached_property
@@ -26,6 +27,7 @@ _LOCALE_VARIABLES = ("LC_ALL", "LC_MESSAGES", "LANG")  # of gettext; the first o
 _PLACEHOLDER = re.compile(r"\{(\d+)\}")
 _SEPARATORS = ("; ", ". ", ", ", " and ")
 _MAX_DEPTH = 4
+_MAX_LENGTH = 1000  # characters; the search for a longer sentence, which contains a student's text, takes too long
 _NAMED = re.compile(r"(\S+: )(.+)", re.DOTALL)  # such as "lidar_link: no transform"
 _WORDS = re.compile(r"[^,] ")  # several words that are not a list
 _JOINTS = ";, \n"  # before a part of a sentence
@@ -44,7 +46,7 @@ class Language:
 
     def text(self, sentence: str) -> str:
         """Return a sentence of the grader in this language, or the sentence itself if it has no translation."""
-        if self.code == ENGLISH.code or not sentence.strip():
+        if self.code == ENGLISH.code or not sentence.strip() or len(sentence) > _MAX_LENGTH:
             return sentence
         return self._text(sentence, 0) or sentence
 
@@ -94,7 +96,9 @@ class Language:
         return [(_pattern(_bare(message)), text, len(_fixed(message)) <= _SHORT) for message, text in known]
 
     def _text(self, sentence: str, depth: int) -> str:
-        """Return the translation of a sentence, or "" if it has none."""
+        """Return the translation of a sentence, or "" if it has none or is nested too deeply."""
+        if depth > _MAX_DEPTH:
+            return ""
         found = self._exact.get(_bare(sentence)) or self._from_parts(sentence, depth, _SEPARATORS[:2])
         found = found or self._from_template(sentence, depth) or self._from_parts(sentence, depth, _SEPARATORS[2:])
         if not found and (named := _NAMED.fullmatch(sentence)) and (part := self._text(named[2], depth + 1)):
@@ -102,8 +106,6 @@ class Language:
         return _like(sentence, found) if found else ""
 
     def _from_template(self, sentence: str, depth: int) -> str:
-        if depth > _MAX_DEPTH:
-            return ""
         for pattern, text, is_short in self._templates:
             if match := pattern.fullmatch(_bare(sentence)):
                 values = [self._text(value, depth + 1) or value for value in match.groups()]
@@ -117,11 +119,11 @@ class Language:
     def _from_parts(self, sentence: str, depth: int, separators: tuple[str, ...]) -> str:
         """Return the translation of several sentences, or of the words of a list, if all of them have one."""
         for separator in separators:
-            parts = sentence.split(separator)
-            if len(parts) > 1 and depth <= _MAX_DEPTH:
-                found = [self._text(part, depth + 1) for part in parts]
-                if all(found):
-                    return (f" {self.label('and')} " if separator == " and " else separator).join(found)
+            parts = sentence.split(separator) if separator in sentence else []
+            # The first part without a translation ends the search: a student's text can have many parts.
+            found = list(itertools.takewhile(bool, (self._text(part, depth + 1) for part in parts)))
+            if parts and len(found) == len(parts):
+                return (f" {self.label('and')} " if separator == " and " else separator).join(found)
         return ""
 
 
@@ -154,19 +156,25 @@ def _pattern(message: str) -> re.Pattern[str]:
     )
 
 
-def choose_language(code: str | None = None) -> Language:
-    """Return the language with a code, or that of the environment: COFRAME_LANGUAGE, else the locale, else English.
+def choose_language(code: str | None = None, recorded: str = "") -> Language:
+    """Return the language with a code, or that of COFRAME_LANGUAGE, of a folder, or of the locale, else English.
+
+    Args:
+        code: The code that the user gives, such as "de".
+        recorded: The code in a student's folder; it has no effect if there is no such language.
 
     Raises:
-        CourseError: There is no such language.
+        CourseError: There is no language with the code, or that of COFRAME_LANGUAGE.
     """
     known = languages()
-    asked = code or os.environ.get(_VARIABLE, "")
     locale = next(filter(None, map(os.environ.get, _LOCALE_VARIABLES)), "")
-    wanted = asked or locale
-    short = re.split(r"[_.@-]", wanted, maxsplit=1)[0].lower()
-    if short in known:
-        return Language(short)
-    if asked:
-        raise CourseError(f"The course has no language {asked!r}.", hint=f"Languages: {', '.join(known)}.")
-    return ENGLISH
+    if asked := code or os.environ.get(_VARIABLE, ""):
+        if _short(asked) not in known:
+            raise CourseError(f"The course has no language {asked!r}.", hint=f"Languages: {', '.join(known)}.")
+        return Language(_short(asked))
+    return next((Language(each) for each in (_short(recorded), _short(locale)) if each in known), ENGLISH)
+
+
+def _short(locale: str) -> str:
+    """Return the language of a locale, such as "de" of "de_AT.UTF-8"."""
+    return re.split(r"[_.@-]", locale, maxsplit=1)[0].lower()
