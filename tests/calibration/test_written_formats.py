@@ -4,10 +4,13 @@
 import cv2
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
 import coframe
 from coframe.calibration import CalibrationError, Rig, read, write
+from coframe.calibration.left_out import left_out
 from coframe.cameras import CameraModel, lens_of
+from coframe.cli.app import app
 
 K = np.array([[400.0, 0.0, 320.5], [0.0, 410.0, 240.5], [0.0, 0.0, 1.0]])
 CAMERA = coframe.Transform.from_rpy([0.6, 0.25, 1.5], [-1.6, 0.02, -1.55], target="base_link", source="left")
@@ -111,3 +114,35 @@ def test_easy_handeye2(tmp_path, parent, kind):
     assert f"calibration_type: {kind}" in (tmp_path / "arm.calib").read_text()
     with pytest.raises(CalibrationError, match="one mount, and the calibration has 3"):
         write(pair(), tmp_path / "b.calib")
+
+
+def run(*words):
+    return CliRunner().invoke(app, list(map(str, words)))
+
+
+def test_what_a_format_cannot_store_is_said(tmp_path):
+    rig = Rig((CAMERA, BESIDE, VELO), pair().cameras, {"left": 0.01})
+    write(rig, tmp_path / "rig.mcap")
+    urdf = run("calib", "convert", tmp_path / "rig.mcap", "-o", tmp_path / "rig.urdf")
+    assert f"coframe: not in {tmp_path / 'rig.urdf'}, because the format cannot store it: 2 of 2 cameras" in urdf.stderr
+    kitti = run("calib", "convert", tmp_path / "rig.mcap", "-o", tmp_path / "rig.txt")
+    assert "cannot store it: 1 of 4 frames" in kitti.stderr
+    assert not run("calib", "convert", tmp_path / "rig.mcap", "-o", tmp_path / "rig", "--to", "nuscenes").stderr
+    assert left_out(rig, tmp_path / "rig.mcap") == ["1 of 1 time offset"]
+    (tmp_path / "rig.urdf").write_text("<robot")
+    with pytest.raises(CalibrationError, match=r"was written, but cannot be read: "):
+        left_out(rig, tmp_path / "rig.urdf")
+
+
+def test_names_that_colmap_would_read_as_other_names(tmp_path):
+    for name in ("front left", "front\n1 2 3"):
+        mount = coframe.Transform(target="base", source=name)
+        with pytest.raises(CalibrationError, match="COLMAP permits no spaces in the names of images"):
+            write(Rig((mount,), {name: camera(name)}), tmp_path / "reconstruction", "colmap")
+    assert not (tmp_path / "reconstruction").exists()
+
+
+def test_poses_of_transforms_json_are_those_in_the_root(tmp_path):
+    """Also for a camera that is mounted on another one."""
+    found = written(tmp_path, pair(), "transforms.json", "nerf")
+    assert agrees(found, pair(), "base_link", "right", ("world", "right"))

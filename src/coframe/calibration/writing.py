@@ -31,7 +31,10 @@ if TYPE_CHECKING:
     from coframe.calibration.rig import Rig
     from coframe.cameras import CameraModel
 
-__all__ = ["WRITABLE_FORMATS", "write"]
+__all__ = ["COMMANDS", "WRITABLE_FORMATS", "write"]
+
+COMMANDS = ".sh"
+"""The suffix of a file with shell commands, which contains the transforms only."""
 
 _OPTICAL = Transform.from_matrix(OPENGL_TO_OPTICAL)
 
@@ -176,9 +179,11 @@ def _camera_info(rig: Rig) -> str:
 
 
 def _nerf(rig: Rig) -> str:
+    root, *others = rig.frames or ("",)
+    buffer = rig.buffer()
     frames = [
-        {"file_path": str(mount.source), "transform_matrix": (mount @ _OPTICAL).matrix.tolist()}
-        for mount in rig.transforms
+        {"file_path": name, "transform_matrix": (buffer.lookup(root, name) @ _OPTICAL).matrix.tolist()}
+        for name in others
     ]
     document: dict[str, object] = {}
     if len(rig.cameras) == 1:
@@ -228,7 +233,7 @@ _WRITERS = {
     "autoware": _Writer(".yaml", _autoware),
     "camera_info": _Writer(".yaml", _camera_info),
     "nerf": _Writer(".json", _nerf),
-    "commands": _Writer(".sh", _commands),
+    "commands": _Writer(COMMANDS, _commands),
     "kitti": _Writer(".txt", kitti_text),
     "opencv": _Writer(".yaml", opencv_text),
     "easy_handeye2": _Writer(".calib", hand_eye_text),

@@ -12,10 +12,11 @@ import click
 from click.exceptions import Exit
 
 from coframe.calibration import FORMATS, WRITABLE_FORMATS, CalibrationError, Tolerance, compare_rigs, read, write
+from coframe.calibration.left_out import left_out
 from coframe.cli.declaration import PATH, CommandGroup, argument
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.mount_history import HISTORY_SUFFIXES, measured_in, pair_options, print_history, write_history
-from coframe.cli.output import fail, fail_to_write, printable
+from coframe.cli.output import fail, fail_to_write, printable, warn
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -85,6 +86,8 @@ def convert(calibration: Path, output: Path, format_: str | None, camera: str | 
             write(rig, output, format_)
         except OSError as error:
             fail_to_write(output, error)
+        if missing := left_out(rig, output):
+            warn(f"not in {output}, because the format cannot store it: {', '.join(missing)}")
 
 
 def _select_camera(rig: Rig, camera: str) -> Rig:

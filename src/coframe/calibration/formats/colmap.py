@@ -193,13 +193,15 @@ def colmap_files(rig: Rig) -> dict[str, str]:
     with_pose = {name: model for name, model in rig.cameras.items() if model.frame in rig.frames}
     if not with_pose:
         raise CalibrationError("a reconstruction of COLMAP needs cameras whose frames have a pose")
-    cameras, images = list[str](), list[str]()
+    cameras, images, buffer = list[str](), list[str](), rig.buffer()
     for number, (name, model) in enumerate(with_pose.items(), 1):
         kind, rest = _model_of(name, model)
         k = model.k
         values = [k[0, 0], k[1, 1], k[0, 2] + 0.5, k[1, 2] + 0.5, *rest]
         cameras.append(f"{number} {kind} {model.width} {model.height} {_words(values)}")
-        pose = rig.lookup(model.frame, rig.frames[0])
+        if model.frame.split() != [model.frame]:
+            raise CalibrationError(f"COLMAP permits no spaces in the names of images: {model.frame!r}")
+        pose = buffer.lookup(model.frame, rig.frames[0])
         numbers = _words([*np.roll(pose.quaternion, 1), *pose.translation])
         images += [f"{number} {numbers} {number} {model.frame}", ""]
     texts = {"cameras.txt": cameras, "images.txt": images, "points3D.txt": []}

@@ -58,15 +58,17 @@ def nuscenes_files(rig: Rig) -> dict[str, str]:
         CalibrationError: A camera has a distortion, which the format does not have.
     """
     cameras = {model.frame: model for model in rig.cameras.values()}
+    if not rig.frames:
+        raise CalibrationError("calibrated_sensor.json of nuScenes needs poses, and the calibration has none")
     ego, *frames = rig.frames
-    entries, sensors = [], []
+    entries, sensors, buffer = [], [], rig.buffer()
     for frame in frames:
         model = cameras.get(frame)
         if model is not None and any(model.lens.coefficients):
             raise CalibrationError(f"nuScenes has no distortion, and the camera of {frame} has one: rectify its images")
-        pose = rig.lookup(ego, frame)
+        pose = buffer.lookup(ego, frame)
         token, sensor = (hashlib.md5(f"{kind}/{frame}".encode(), usedforsecurity=False).hexdigest() for kind in "cs")
-        sensors.append({"token": sensor, "channel": frame, "modality": "lidar" if model is None else "camera"})
+        sensors.append({"token": sensor, "channel": frame, "modality": _modality(frame, model)})
         entries.append({
             "token": token, "sensor_token": sensor, "translation": pose.translation.tolist(),
             "rotation": np.roll(pose.quaternion, 1).tolist(),
@@ -74,3 +76,9 @@ def nuscenes_files(rig: Rig) -> dict[str, str]:
         })  # fmt: skip
     files = {"calibrated_sensor.json": entries, "sensor.json": sensors}
     return {name: json.dumps(document, indent=1) + "\n" for name, document in files.items()}
+
+
+def _modality(frame: str, model: CameraModel | None) -> str:
+    if model is not None:
+        return "camera"
+    return next((word for word in ("radar", "imu") if word in frame.lower()), "lidar")
