@@ -10,7 +10,7 @@ from click.testing import CliRunner
 import coframe
 from coframe import quaternion
 from coframe.bags import Writer
-from coframe.calibration import find_movements, measure_mounts
+from coframe.calibration import CalibrationError, find_movements, measure_mounts
 from coframe.cli.app import app
 from coframe.messages import find, serialize
 from coframe.time import SECOND
@@ -114,3 +114,29 @@ def test_what_cannot_be_compared_is_an_error(tmp_path):
     text = run("calib", "history", bag, "--pair", "/left/tag", "/left/tag", code=1)
     assert "not those of two sensors" in text
     assert "no recording shows a mount" in text
+
+
+def measured(path, shown):
+    """Return the mounts between two cameras; the second one shows the tag at the given poses, the first one at none."""
+    pose = find(POSE)
+    with Writer(path) as bag:
+        topics = {name: bag.add_topic(f"/{name}/tag", POSE) for name in ("left", "right")}
+        for row, place in enumerate(shown):
+            stamp = TUESDAY + row * SECOND // 20
+            for name, each in (("left", coframe.Transform()), ("right", place)):
+                bag.write(topics[name], serialize(each.to_msg(pose, name, stamp)), received=stamp)
+    with coframe.open_bag(path) as recording:
+        return measure_mounts(recording, [("/left/tag", "/right/tag")])
+
+
+def test_rounded_poses_are_measured(tmp_path):
+    """Each coordinate has one value in two of three poses, so that its median deviation is zero."""
+    (mount,) = measured(tmp_path / "a.mcap", [coframe.Transform(0.01 * np.eye(3)[row % 3]) for row in range(120)])
+    assert np.allclose(mount.transform.translation, -0.01 / 3, atol=1e-4)
+
+
+def test_poses_that_mostly_contradict_each_other_show_no_mount(tmp_path):
+    steps = 0.05 * np.eye(6)[np.arange(120) % 6]
+    shown = [coframe.Transform(step[:3], quaternion.from_rotvec(step[3:])) for step in steps]
+    with pytest.raises(CalibrationError, match="of 120 common poses are outliers"):
+        measured(tmp_path / "a.mcap", [*shown])

@@ -116,7 +116,7 @@ def measure_pair(recording: Recording, first: str, second: str) -> MeasuredMount
         second: Topic of the poses in the frame of the child sensor.
 
     Raises:
-        CalibrationError: They have too few common times, or are in the same frame.
+        CalibrationError: They have too few common times, are in the same frame, or mostly contradict each other.
         RecordingError: A topic does not exist or contains no poses.
     """
     poses = [recording.trajectory(topic) for topic in (first, second)]
@@ -212,8 +212,20 @@ def _mean_pose(each: Transform) -> tuple[Transform, float]:
 
 
 def _without_outliers(rows: Array) -> tuple[Array, Array]:
-    """Return the rows without those that are far from the median, and their mean."""
+    """Return the rows without those that are far from the median, and their mean.
+
+    Raises:
+        CalibrationError: Most rows are far from the median.
+    """
     middle = np.median(rows, axis=0)
     spread = 1.4826 * np.median(np.abs(rows - middle), axis=0)
+    # Of rounded values, most may be equal, so that their median deviation is zero but for rounding.
+    deviation = rows.std(axis=0)
+    spread = np.where(spread > 1e-6 * deviation, spread, deviation)
     kept = rows[(np.abs(rows - middle) <= np.maximum(6.0 * spread, 1e-12)).all(axis=1)]
+    if 2 * len(kept) <= len(rows):
+        raise CalibrationError(
+            f"{len(rows) - len(kept)} of {len(rows)} common poses are outliers",
+            hint="Compare topics with poses of one object, which both sensors see at the same time.",
+        )
     return kept, kept.mean(axis=0)

@@ -43,12 +43,19 @@ class MountChange(NamedTuple):
     radians_deviation: float
 
     @property
+    def has_shifted(self) -> bool:
+        """Whether the distance is above four standard deviations."""
+        return self.meters > MIN_SIGNIFICANCE * self.meters_deviation
+
+    @property
+    def has_turned(self) -> bool:
+        """Whether the angle is above four standard deviations."""
+        return self.radians > MIN_SIGNIFICANCE * self.radians_deviation
+
+    @property
     def is_significant(self) -> bool:
         """Whether one of both is above four standard deviations."""
-        return (
-            self.meters > MIN_SIGNIFICANCE * self.meters_deviation
-            or self.radians > MIN_SIGNIFICANCE * self.radians_deviation
-        )
+        return self.has_shifted or self.has_turned
 
 
 @dataclass(frozen=True, eq=False)

@@ -115,9 +115,9 @@ def _line(mount: MeasuredMount, first: MeasuredMount) -> str:
 def _sentence(movement: Movement) -> str:
     change, child = movement.change, str(movement.after.transform.source)
     amounts = []
-    if change.radians > 4.0 * change.radians_deviation:
+    if change.has_turned:
         amounts.append(_amount(change.radians, change.radians_deviation))
-    if change.meters > 4.0 * change.meters_deviation:
+    if change.has_shifted:
         amounts.append(_length(change.meters, change.meters_deviation))
     since = f"since {_day(movement.before, weekday=True)} ({PurePath(movement.before.recording).name})"
     parent = movement.after.transform.target
