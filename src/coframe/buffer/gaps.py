@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 __all__ = [
     "GAP_CHOICES",
     "MAX_GAP",
+    "MAX_GAP_PERIODS",
     "OnGap",
     "Validity",
     "check_gap",
@@ -42,6 +43,8 @@ OnGap: TypeAlias = Literal["raise", "nan", "omit"]
 GAP_CHOICES = ("raise", "nan", "omit")
 MAX_GAP = 500 * MILLISECOND
 """The longest interval between two transforms over which commands that write poses interpolate, in nanoseconds."""
+MAX_GAP_PERIODS = 4
+"""The same for a trajectory that is compared or calibrated, as a multiple of the median interval of its poses."""
 _MIN_STAMP, _MAX_STAMP = np.iinfo(np.int64).min + 1, np.iinfo(np.int64).max
 _MIN_INTERVALS = 10  # With fewer, the usual period of an edge is not known.
 

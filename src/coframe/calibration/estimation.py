@@ -19,6 +19,7 @@ import numpy as np
 
 from coframe import quaternion
 from coframe._process.optional_imports import import_optional
+from coframe.buffer.gaps import MAX_GAP, MAX_GAP_PERIODS
 from coframe.errors import CalibrationError, TrajectoryError
 from coframe.time import SECOND
 from coframe.trajectories.motion_offset import motion_offset
@@ -34,8 +35,6 @@ __all__ = ["RigidCalibration", "calibrate_hand_eye", "calibrate_rigid"]
 MAX_PAIRS = 1000
 MIN_PAIRS = 20
 _WINDOWS = (0.4, 3.0)  # seconds between the two times of a pair
-_MAX_GAP = 0.5  # seconds without samples that are bridged, or this multiple of the usual distance:
-_MAX_GAP_RATIO = 4.0
 _MAX_SAMPLES_OF_PAIRS = 40  # pairs are tried for each that is wanted
 _START_ANGLES = 36  # rotations about the usual axis from which the best one starts
 _MIN_EXCITATION = 4.0  # ratio of the motion of a direction to the noise, below which it is not observable
@@ -90,8 +89,8 @@ class _Track:
         self.place = np.asarray(poses.translation)[first]
         self.turn = np.asarray(poses.quaternion)[first]
         self._vectors = quaternion.to_rotvec(quaternion.multiply(quaternion.inverse(self.turn[:-1]), self.turn[1:]))
-        steps = np.diff(stamps) / SECOND
-        self._gaps = np.concatenate([[0], np.cumsum(steps > max(_MAX_GAP, _MAX_GAP_RATIO * float(np.median(steps))))])
+        steps = np.diff(stamps)
+        self._gaps = np.concatenate([[0], np.cumsum(steps > max(MAX_GAP, MAX_GAP_PERIODS * float(np.median(steps))))])
 
     def at(self, times: Array, origin: int) -> tuple[Array, Array]:
         """Return rotations and positions at times in seconds after an origin."""

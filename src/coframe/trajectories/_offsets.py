@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from coframe import quaternion
+from coframe.buffer.gaps import MAX_GAP_PERIODS
 from coframe.errors import TrajectoryError
 from coframe.time import MILLISECOND, SECOND
 from coframe.transform.transform import Transform
@@ -35,7 +36,6 @@ _SEARCH_STEPS = 160  # of the search for a time shift
 _RESOLUTION = 10_000  # nanoseconds
 _SEARCHED_POSES = 400
 _SMOOTHING_PERIODS = 4  # periods before and after a pose
-_MAX_GAP_PERIODS = 4  # between two samples of an estimate over which it is interpolated
 _GOLDEN_RATIO = (5**0.5 - 1) / 2
 
 
@@ -158,7 +158,7 @@ class _ShiftedPair:
         self._offset = Transform()
         times = np.asarray(reference.stamps, dtype=np.int64)
         self._times = np.asarray(self._estimate.stamps, dtype=np.int64)
-        self._max_gap = _MAX_GAP_PERIODS * _period(self._times)
+        self._max_gap = MAX_GAP_PERIODS * _period(self._times)
         width = _SMOOTHING_PERIODS * max(_period(times), _period(self._times))
         self._positions = _smooth_positions(self._times, self._estimate.translation, width)
         positions = _smooth_positions(times, reference.translation, width)

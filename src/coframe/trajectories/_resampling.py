@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe.buffer.gaps import MAX_GAP_PERIODS
 from coframe.transform.transform import Transform
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 __all__ = ["median_period", "resample"]
-
-_MAX_GAP_PERIODS = 4
 
 
 def resample(poses: Transform, stamps: NDArray[np.int64]) -> Transform:
@@ -34,7 +33,7 @@ def resample(poses: Transform, stamps: NDArray[np.int64]) -> Transform:
     after = np.searchsorted(known, at).clip(1, len(known) - 1)
     length = known[after] - known[after - 1]
     at_sample = (at == known[after]) | (at == known[after - 1])
-    near = length <= _MAX_GAP_PERIODS * median_period(poses)
+    near = length <= MAX_GAP_PERIODS * median_period(poses)
     usable = (at >= known[0]) & (at <= known[-1]) & (near | at_sample)
     at, after, length = at[usable], after[usable], length[usable]
     share = (at - known[after - 1]) / length
