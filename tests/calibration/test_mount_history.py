@@ -140,3 +140,11 @@ def test_poses_that_mostly_contradict_each_other_show_no_mount(tmp_path):
     shown = [coframe.Transform(step[:3], quaternion.from_rotvec(step[3:])) for step in steps]
     with pytest.raises(CalibrationError, match="of 120 common poses are outliers"):
         measured(tmp_path / "a.mcap", [*shown])
+
+
+def test_options_that_the_baseline_does_not_use_are_refused(tmp_path):
+    recording = record(tmp_path / "a.mcap", 0)
+    text = run("doctor", recording, "--baseline", recording, "--namespace", "robot1", code=2)
+    assert "--namespace and --baseline are mutually exclusive" in text
+    missing = run("calib", "history", tmp_path / "missing.mcap", recording)
+    assert missing.count("missing.mcap") == 1

@@ -7,7 +7,7 @@ import csv
 import io
 import json
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import click
 import numpy as np
@@ -44,6 +44,10 @@ __all__ = ["compare"]
 _SUFFIXES = tuple(f".{kind}" for kind in (*FIGURE_FORMATS, "json", "csv"))
 
 
+def _duration_or_auto(text: str) -> Duration | Literal["auto"]:
+    return "auto" if text == "auto" else Duration(text)
+
+
 @click.command(cls=Command)
 @argument("ref", metavar="REF", help=f"Reference: {TRAJECTORY_FORMS}.")
 @argument(
@@ -76,6 +80,7 @@ _SUFFIXES = tuple(f".{kind}" for kind in (*FIGURE_FORMATS, "json", "csv"))
     "--t-offset",
     "--offset",
     metavar="DURATION|auto",
+    type=_duration_or_auto,
     default="0s",
     help="Add this to the stamps of the estimate, e.g. -35ms. auto: the offset with the smallest error.",
 )
@@ -117,7 +122,7 @@ def compare(
     align_origin: bool,
     n_to_align: int | None,
     max_difference: NonNegativeDuration,
-    t_offset: str,
+    t_offset: Duration | Literal["auto"],
     max_gap: PositiveDuration,
     project: str | None,
     body_offset: tuple[float, ...] | None,
@@ -145,10 +150,6 @@ def compare(
         distance = parse_delta(delta)
     except ValueError as error:
         fail(f"--delta: {error}", code=2)
-    try:
-        shift = "auto" if t_offset == "auto" else Duration(t_offset)
-    except ValueError as error:
-        fail(f"--t-offset: {error}", "Write a duration such as -35ms, or auto.", code=2)
     with run_to_completion():
         choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
         reference = read_argument(ref, choice, max_gap)
@@ -160,7 +161,7 @@ def compare(
                 align=align,
                 max_difference=max_difference,
                 delta=distance,
-                t_offset=shift,
+                t_offset=t_offset,
                 n_to_align=n_to_align,
                 align_origin=align_origin,
                 project=project,

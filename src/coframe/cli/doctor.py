@@ -53,6 +53,8 @@ _DEFAULT_CACHE = PositiveDuration("10s")
 _STYLES = {"error": "bold red", "warning": "yellow", "note": "cyan", "good": "green", "dim": "dim", "plain": ""}
 # --watch uses at most this fraction of a CPU core for its diagnoses.
 _CPU_SHARE = 0.006
+# The parameters that --baseline uses.
+_MOUNT_PARAMETERS = {"bag", "baselines", "pairs", "rigid", "as_json"}
 
 
 @click.command(cls=Command)
@@ -221,6 +223,11 @@ def _compare_mounts(
     """Print which sensors have moved since the earlier recordings, and exit with 1 if one of them has."""
     if bag is None or not baselines:
         fail("--baseline, --pair and --rigid need the recording BAG and a --baseline", code=2)
+    context = click.get_current_context()
+    for option in context.command.params:
+        source = context.get_parameter_source(str(option.name))
+        if option.name not in _MOUNT_PARAMETERS and source is click.core.ParameterSource.COMMANDLINE:
+            fail(f"{option.opts[0]} and --baseline are mutually exclusive: --baseline replaces the report", code=2)
     with run_to_completion():
         if print_history(measured_in([*baselines, str(bag)], pairs, rigid), as_json=as_json):
             raise Exit(1)

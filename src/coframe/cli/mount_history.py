@@ -66,7 +66,9 @@ def measured_in(
             with open_recording(bag, TransformChoice()) as recording:
                 mounts = measure_mounts(recording, pairs, rigid)
         except CoframeError as error:
-            warn(f"{bag}: {str(error).partition(chr(10))[0]}. {getattr(error, 'hint', '')}".rstrip())
+            text = str(error).partition("\n")[0]
+            where = "" if text.startswith(bag) else f"{bag}: "
+            warn(f"{where}{text}. {getattr(error, 'hint', '')}".rstrip())
             continue
         if not mounts:
             warn(f"{bag}: no two sensors see one thing at the same time; name their topics with --pair")
