@@ -5,17 +5,21 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 LIMIT=900 # seconds for the packages and the compilation
-PORT=7676 # of the viewer
 
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 set -m # job control gives the demo a process group, to which Ctrl-C is sent
 BROWSER=true make demo >"$log" 2>&1 &
 demo=$!
-until python3 -c "import urllib.request; urllib.request.urlopen('http://127.0.0.1:$PORT/', timeout=2).read()" 2>/dev/null; do
+# The demo prints its address; another program may use the usual port.
+serves_page() {
+    address=$(grep -o 'http://127.0.0.1:[0-9]*' "$log" | head -n 1)
+    [ -n "$address" ] && python3 -c "import urllib.request; urllib.request.urlopen('$address/', timeout=2).read()" 2>/dev/null
+}
+until serves_page; do
     if ! kill -0 "$demo" 2>/dev/null || [ "$SECONDS" -gt "$LIMIT" ]; then
         cat "$log"
-        echo "make demo: no page at port $PORT after $SECONDS s" >&2
+        echo "make demo: no page after $SECONDS s" >&2
         kill -INT -- "-$demo" 2>/dev/null || true
         exit 1
     fi
