@@ -37,8 +37,9 @@ def main() -> int:
 
 
 def tracked() -> list[str]:
-    """Return the files of the repository."""
-    return subprocess.check_output(["git", "ls-files"], cwd=ROOT, text=True).splitlines()
+    """Return the files of the repository, without deleted ones. -z keeps git from quoting names."""
+    names = subprocess.check_output(["git", "ls-files", "-z"], cwd=ROOT).decode(errors="surrogateescape")
+    return [name for name in names.split("\0") if (ROOT / name).is_file()]
 
 
 def is_checked(path: str) -> bool:
@@ -48,7 +49,7 @@ def is_checked(path: str) -> bool:
 
 def problems(path: str) -> list[str]:
     """Return one line for each reference of a file that leads nowhere."""
-    text = (ROOT / path).read_text("utf-8")
+    text = (ROOT / path).read_text("utf-8", errors="replace")
     found = []
     if path.endswith(".md"):
         prose = FENCE.sub(lambda match: "\n" * match[0].count("\n"), text)
@@ -71,6 +72,8 @@ def exists(name: str, path: str) -> bool:
     if NOT_TRACKED.search(name):
         return True
     name = name.rstrip(".")
+    if re.search(r"\*\*[^/]|[^/]\*\*", name):
+        return False  # pathlib accepts ** only between slashes
     alternatives = re.search(r"\{([\w,./-]*)\}", name)
     if alternatives:
         return all(exists(name.replace(alternatives[0], each, 1), path) for each in alternatives[1].split(","))

@@ -14,6 +14,7 @@ import coframe
 FRAMES, NAME_BYTES, SAMPLES = 250_000, 64 << 20, 1 << 20
 
 TREE = """
+import sys
 from pathlib import Path
 import coframe
 
@@ -21,7 +22,7 @@ def memory():
     return int(next(line for line in Path("/proc/self/status").open() if line.startswith("RssAnon")).split()[1])
 
 buffer, pose, before = coframe.Buffer(None), coframe.Transform(), memory()
-for second in range(1, 13):
+for second in range(1, 1 + int(sys.argv[1])):
     for number in range(5000):
         buffer.set("map", f"frame_{number}", pose, second * 1_000_000_000)
 print((memory() - before) / 5000)
@@ -68,10 +69,12 @@ def test_samples_of_a_frame_within_the_cache_length():
 
 
 @pytest.mark.skipif(platform.system() != "Linux", reason="reads /proc")
-def test_a_frame_with_few_samples_takes_little_memory():
-    """So a tree of 100 000 frames takes less than 200 MB."""
-    output = subprocess.run([sys.executable, "-c", TREE], capture_output=True, text=True, check=True).stdout
-    assert 0.5 < float(output) < 2  # kB per frame
+@pytest.mark.parametrize(("samples", "kilobytes"), [(12, 1.6), (32, 5.7), (33, 5.7 + 18)])
+def test_the_memory_of_a_frame_grows_with_its_samples(samples, kilobytes):
+    """The figures are those of docs/reliability.md. A tree of 100 000 frames takes less than 200 MB."""
+    command = [sys.executable, "-c", TREE, str(samples)]
+    output = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    assert float(output) == pytest.approx(kilobytes, rel=0.25)
 
 
 @pytest.mark.parametrize("count", [11, 12, 13, 14, 31, 32, 33, 34, 255, 256, 257])
