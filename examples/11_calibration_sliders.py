@@ -6,9 +6,6 @@ No ROS graph is needed. Open the printed address in a browser; Ctrl-C ends the p
 
 from __future__ import annotations
 
-import contextlib
-import threading
-
 import numpy as np
 
 import coframe
@@ -50,8 +47,7 @@ def main() -> None:
             print(f"camera_link: height {height.value:.2f} m, pitch {pitch.value:.2f} rad, {error.value}", flush=True)
 
         print(f"Open {viewer.url} and move the sliders.", flush=True)
-        with contextlib.suppress(KeyboardInterrupt):
-            threading.Event().wait()
+        viewer.wait()
 
 
 if __name__ == "__main__":

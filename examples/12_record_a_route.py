@@ -6,9 +6,6 @@ No ROS graph is needed. Open the printed address in a browser; Ctrl-C ends the p
 
 from __future__ import annotations
 
-import contextlib
-import threading
-
 import numpy as np
 
 import coframe
@@ -63,8 +60,7 @@ def main() -> None:
             print(" -> ".join(f"({x:.1f}, {y:.1f})" for x, y, _ in route) + f": {length.value}", flush=True)
 
         print(f"Open {viewer.url} and click the floor.", flush=True)
-        with contextlib.suppress(KeyboardInterrupt):
-            threading.Event().wait()
+        viewer.wait()
 
 
 if __name__ == "__main__":

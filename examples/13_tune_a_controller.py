@@ -6,9 +6,6 @@ No ROS graph is needed. Open the printed address in a browser; Ctrl-C ends the p
 
 from __future__ import annotations
 
-import contextlib
-import threading
-
 import numpy as np
 
 import coframe
@@ -50,8 +47,7 @@ def main() -> None:
         damping.on_update(update)
         update()
         print(f"Open {viewer.url} and tune the gain.", flush=True)
-        with contextlib.suppress(KeyboardInterrupt):
-            threading.Event().wait()
+        viewer.wait()
 
 
 if __name__ == "__main__":

@@ -6,9 +6,6 @@ Open the printed address in a browser; Ctrl-C ends the program.
 
 from __future__ import annotations
 
-import contextlib
-import threading
-
 import numpy as np
 
 import coframe
@@ -33,9 +30,9 @@ def show_scene() -> coframe.viewer.Viewer:
 
 
 def main() -> None:
-    with show_scene() as viewer, contextlib.suppress(KeyboardInterrupt):
+    with show_scene() as viewer:
         print(f"Open {viewer.url}.", flush=True)
-        threading.Event().wait()
+        viewer.wait()
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ import contextlib
 import gzip
 import http.client
 import json
+import signal
 import socket
 import subprocess
 import sys
@@ -351,6 +352,18 @@ def test_updates_wait_until_the_last_one_is_drawn(view, open_tab):
 def read_forever(tab):
     while True:
         tab.read()
+
+
+@pytest.mark.parametrize("by_signal", [False, True])
+def test_a_program_waits_until_its_viewer_is_closed_or_interrupted(by_signal):
+    with coframe.show(small_buffer(), port=0) as viewer:
+        end = (signal.raise_signal, [signal.SIGINT]) if by_signal else (viewer.close, [])
+        timer = threading.Timer(0.1, *end)
+        started_at = time.monotonic()
+        timer.start()
+        viewer.wait()
+        assert time.monotonic() - started_at >= 0.1
+        timer.join()
 
 
 def test_closing_ends_all_threads(open_tab):

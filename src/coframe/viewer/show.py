@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
+import threading
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -39,6 +41,8 @@ if TYPE_CHECKING:
     from coframe.viewer.tools.control import GraphControl
 
 __all__ = ["Viewer", "show", "start_viewer"]
+
+_WAKE_PERIOD = 0.5  # seconds; on Windows, Ctrl-C does not end a wait without a timeout
 
 
 class Viewer:
@@ -77,6 +81,7 @@ class Viewer:
         self._scene = SceneApi(state.nodes, self._complete_buffer)
         self._gui = GuiApi(state.widgets)
         self._server = ViewerServer(state, host=host, port=port)
+        self._closed = threading.Event()
 
     @property
     def url(self) -> str:
@@ -127,8 +132,15 @@ class Viewer:
         source = self._sources[-1]
         return None if source.mode == "live" else source.buffer
 
+    def wait(self) -> None:
+        """Wait until Ctrl-C is pressed, or until another thread closes the viewer."""
+        with contextlib.suppress(KeyboardInterrupt):
+            while not self._closed.wait(_WAKE_PERIOD):
+                pass
+
     def close(self) -> None:
         """Stop the server; may be called more than once."""
+        self._closed.set()
         self._server.close()
         for source in self._sources:
             source.close()
