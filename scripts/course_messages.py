@@ -39,30 +39,8 @@ MODULES = (
 # Here only the arguments of Language.text and Language.label are shown to students.
 CALLERS = (SOURCE / "cli" / "lab.py", COURSE / "handbook.py", COURSE / "translation" / "language.py")
 # Arguments of these functions are not shown, and neither are values of these names.
-_NO_TEXT = {
-    "compile",
-    "get",
-    "startswith",
-    "endswith",
-    "removeprefix",
-    "glob",
-    "find",
-    "rpartition",
-    "sub",
-    "module_program",
-}
-_NO_TEXT |= {"_node", "_node_with_fault", "replace", "split", "watch", "encode"}
-_NO_TEXT_NAMES = {
-    "__all__",
-    "_UNKNOWN_FRAME",
-    "_FAILURES",
-    "_SYNONYMS",
-    "_IGNORED",
-    "_STYLE",
-    "_PAGE",
-    "other_names",
-    "_LOOKUP",
-}
+_NO_TEXT = {"compile", "replace", "rpartition"}
+_NO_TEXT_NAMES = {"_FAILURES", "_UNKNOWN_FRAME"}
 _CODE = ("import ", "coframe.", "<", "nan", "xyz", "replace", "pass", "fail")
 _SENTENCE = re.compile(
     r"[A-Za-z]{2,}[^<>]* [^<>]*[A-Za-z]|[A-Za-z]+ \{\d+\}|[a-z]{4,}:? ?\{\d+\}"

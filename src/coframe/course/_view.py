@@ -29,17 +29,7 @@ _SYSTEM: Final = (
 )
 # Environment variables that list installation prefixes, and folders of packages and libraries.
 _INSTALLATIONS: Final = ("AMENT_PREFIX_PATH", "VIRTUAL_ENV")
-_INSTALLATION_PARTS: Final = (
-    "bin",
-    "etc",
-    "include",
-    "lib",
-    "lib64",
-    "local",
-    "pyvenv.cfg",
-    "share",
-    "ssl",
-)  # of an installation
+_INSTALLATION_PARTS: Final = ("bin", "etc", "include", "lib", "lib64", "local", "pyvenv.cfg", "share", "ssl")
 _FOLDERS: Final = ("LD_LIBRARY_PATH", "PYTHONPATH")
 _CONFIGURATION: Final = "/etc"
 _WORLD_READABLE = 0o4  # the permission bit that lets all users read a file

@@ -111,9 +111,8 @@ def run_program(
     elif silence and not problem:
         sheet.withdraw(first, silence)
         sheet.set_cause(first, cause)
-    elif (
-        program.violation or cause == BLOCKED_CAUSE
-    ):  # What was observed has this cause, whatever else would explain it.
+    elif program.violation or cause == BLOCKED_CAUSE:
+        # What was observed has this cause, whatever else would explain it.
         sheet.set_cause(first, _as_cause(program.violation) or cause, replace=True)
     else:
         sheet.set_cause(first, _as_cause(problem) or cause)

@@ -109,10 +109,8 @@ class Language:
         for pattern, text, is_short in self._templates:
             if match := pattern.fullmatch(_bare(sentence)):
                 values = [self._text(value, depth + 1) or value for value in match.groups()]
-                if is_short and any(
-                    _WORDS.search(value) for value in values
-                ):  # "{0} of {1}" also fits other sentences.
-                    continue
+                if is_short and any(map(_WORDS.search, values)):
+                    continue  # "{0} of {1}" also fits other sentences.
                 return _PLACEHOLDER.sub(lambda place, values=values: values[int(place[1])], text)  # type: ignore[misc]
         return ""
 
