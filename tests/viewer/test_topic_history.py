@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The table of a topic and the states of its fields, as a page receives them."""
 
+import contextlib
+import json
+
 import pytest
+import recordings
 from recordings import START
 from runs import MS, SECOND, Run
 
@@ -93,6 +97,42 @@ def test_the_table_follows_the_displayed_time(tab):
     assert table["rows"][0]["cells"] == ["1 element"]
     tab.send("table", topic="/nothing", rows=1)
     assert tab.wait("table", lambda table: table["topic"] == "/nothing")["text"] == "there are no messages on /nothing"
+
+
+@pytest.fixture
+def json_tab(tmp_path, view, open_tab):
+    """Return a function that records topics of JSON and opens a tab; a message is an object, or its text."""
+
+    opened = contextlib.ExitStack()
+
+    def start(**topics):
+        rows = [
+            (f"/{topic}", START + i * SECOND, (one if isinstance(one, str) else json.dumps(one)).encode())
+            for topic, messages in topics.items()
+            for i, one in enumerate(messages)
+        ]
+        types = {f"/{topic}": ("Report", "jsonschema", b"{}", "json") for topic in topics}
+        recordings.write_mcap(tmp_path / "reports.mcap", rows=sorted(rows, key=lambda row: row[1]), types=types)
+        return open_tab(view(opened.enter_context(coframe.open_bag(tmp_path / "reports.mcap"))))
+
+    with opened:
+        yield start
+
+
+def test_each_message_of_a_table_is_shown_whatever_its_fields_are(json_tab):
+    wide = [{f"f{i}": i for i in range(41)}]
+    tab = json_tab(mixed=[{"a": 1}, {}, {"b": {"c": [1, 2]}}, "{"], wide=wide, empty=[{}])
+    tab.send("table", topic="/mixed", rows=9)
+    table = tab.wait("table", lambda table: table["rows"])
+    assert [column["path"] for column in table["columns"]] == ["a", "b.c"]
+    assert [row["cells"] for row in table["rows"]] == [["1", ""], ["", ""], ["", "2 elements"], ["", ""]]
+    assert [row["problem"][:30] for row in table["rows"]] == ["", "", "", "the message cannot be read: Re"]
+    tab.send("table", topic="/wide", rows=9)
+    table = tab.wait("table", lambda table: table["topic"] == "/wide" and table["rows"])
+    assert len(table["columns"]) == 40
+    assert table["text"] == "only the first 40 fields are shown"
+    tab.send("table", topic="/empty", rows=9)
+    assert tab.wait("table", lambda table: table["topic"] == "/empty" and table["rows"])["columns"] == []
 
 
 def test_constants_give_states_their_names():

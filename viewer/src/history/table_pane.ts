@@ -100,8 +100,9 @@ export class TablePane implements Pane {
         this.rows.delete(key);
       }
     for (const row of rows) if (row.key >= first && row.key <= last && !this.rows.has(row.key)) this.insert(row);
-    const count = this.rows.size === 1 ? "1 message" : `${this.rows.size} messages`;
-    setText(this.facts, shorten([type, text || count].filter(Boolean).join(" · "), 400));
+    const { size } = this.rows;
+    const count = size === 1 ? "1 message" : size > 1 ? `${size} messages` : "";
+    setText(this.facts, shorten([type, count, text].filter(Boolean).join(" · "), 400));
     this.facts.dataset.state = state;
   }
 
@@ -128,21 +129,37 @@ export class TablePane implements Pane {
       { type: "button", class: "link numbers", title: "Go to this time", on: { click: goTo } },
       stamp,
     );
-    const cells = row.cells.map((cell) =>
-      h("td", { title: cell.length > MAX_CELL ? cell : "" }, shorten(cell, MAX_CELL)),
-    );
+    const cells = row.problem ? [this.problemCell(row.problem)] : row.cells.map(valueCell);
     const element = h("tr", { data: { key: String(row.key) } }, h("td", {}, button), ...cells);
     const after = [...this.lines.children].find((other) => Number((other as HTMLElement).dataset.key) < row.key);
     this.lines.insertBefore(element, after ?? null);
     this.rows.set(row.key, { row, element });
   }
 
+  private problemCell(problem: string): HTMLElement {
+    const cell = h("td", { class: "unreadable" }, shorten(problem, 300));
+    cell.colSpan = Math.max(1, this.columns.length);
+    return cell;
+  }
+
   private save(): void {
     const quoted = (text: string): string => `"${text.replaceAll('"', '""')}"`;
-    const lines = [["stamp_ns", ...this.columns.map(({ path }) => path)]];
-    for (const { row } of [...this.rows.values()].sort((a, b) => a.row.key - b.row.key))
-      lines.push([String(this.model.origin + BigInt(Math.round(row.stamp))), ...row.cells]);
+    const rows = [...this.rows.values()].map(({ row }) => row).sort((a, b) => a.key - b.key);
+    const hasProblems = rows.some(({ problem }) => problem);
+    const lines = [["stamp_ns", ...this.columns.map(({ path }) => path), ...(hasProblems ? ["problem"] : [])]];
+    for (const row of rows) {
+      const cells = this.columns.map((_, i) => row.cells[i] ?? ""); // Columns may have been added after the row.
+      lines.push([
+        String(this.model.origin + BigInt(Math.round(row.stamp))),
+        ...cells,
+        ...(hasProblems ? [row.problem] : []),
+      ]);
+    }
     const text = lines.map((line) => line.map(quoted).join(",")).join("\n");
     download("coframe-table.csv", new Blob([text, "\n"], { type: "text/csv" }));
   }
+}
+
+function valueCell(text: string): HTMLElement {
+  return h("td", { title: text.length > MAX_CELL ? text : "" }, shorten(text, MAX_CELL));
 }

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from coframe.viewer.clients._panels import ShownStates, WatchedTopic
     from coframe.viewer.clients._state import ClientState
     from coframe.viewer.panels.states import StateHistory
-    from coframe.viewer.panels.table import TableMessage
+    from coframe.viewer.panels.table import Column, TableMessage
     from coframe.viewer.protocol.common import DisplayState
 
 __all__ = ["StatesFeed", "TableFeed"]
@@ -30,6 +30,8 @@ _logger = logging.getLogger("coframe.viewer")
 # Seconds between updates.
 _TABLE_PERIOD, _STATES_PERIOD, _CLOSED_PERIOD, _READING_PERIOD, _LATE_PERIOD = 0.2, 0.2, 0.25, 0.03, 1.0
 
+_MAX_COLUMNS = 40
+
 
 class TableFeed(PanelFeed):
     """The last messages of a topic at the displayed time, which another thread reads."""
@@ -38,7 +40,8 @@ class TableFeed(PanelFeed):
         super().__init__(client)
         self._late_due = 0.0
         self._watched: WatchedTopic | None = None
-        self._columns: list[tuple[str, str]] = []
+        self._columns: list[Column] = []
+        self._omits_fields = False
         self._sent: set[int] = set()
         self._reading: Future[list[TableMessage]] | None = None
 
@@ -48,6 +51,7 @@ class TableFeed(PanelFeed):
         self.due = now + (_TABLE_PERIOD if watched else _CLOSED_PERIOD)
         if watched is not self._watched:
             self._watched, self._columns, self._sent, self._reading = watched, [], set(), None
+            self._omits_fields = False
         if watched is None:
             return
         if watched.messages is None and now >= self._late_due:
@@ -66,23 +70,34 @@ class TableFeed(PanelFeed):
                 return
             rows, self._reading = self._reading.result(), None
             self._sent = (self._sent | {row.key for row in rows}).intersection(keys)
-            yield Update(None, None, partial(self._encode, watched, "ok", "", keys, rows))
+            self._add_columns(rows)
+            yield Update(None, None, partial(self._encode, watched, "ok", self._note, keys, rows))
         elif new:
             from coframe.viewer.panels.table import read_rows  # noqa: PLC0415 - needs the message classes
 
-            self._reading = self._client.viewer.executor.submit(read_rows, new)
+            self._reading = self._client.viewer.executor.submit(read_rows, new, _MAX_COLUMNS + 1)
             self.due = now + _READING_PERIOD
         else:
             self._sent.intersection_update(keys)
-            text = "" if keys else "no message yet"
+            text = self._note if keys else "no message yet"
             span = (id(watched), keys[:1], keys[-1:])
             yield Update("table", span, partial(self._encode, watched, "ok" if keys else "waiting", text, keys, []))
+
+    @property
+    def _note(self) -> str:
+        return f"only the first {_MAX_COLUMNS} fields are shown" if self._omits_fields else ""
+
+    def _add_columns(self, rows: Sequence[TableMessage]) -> None:
+        """Add the fields that no earlier message has: those of JSON may differ from message to message."""
+        for row in rows:
+            new = [column for column in row.cells if column not in self._columns]
+            room = _MAX_COLUMNS - len(self._columns)
+            self._columns += new[:room]
+            self._omits_fields |= len(new) > room
 
     def _encode(
         self, watched: WatchedTopic, state: DisplayState, text: str, keys: list[int], rows: Sequence[TableMessage]
     ) -> str:
-        for row in rows[-1:]:
-            self._columns = self._columns or list(row.cells)
         origin = self._client.origin
         return encode(
             TopicTable(
@@ -99,6 +114,7 @@ class TableFeed(PanelFeed):
                         key=row.key,
                         stamp=float(row.time - origin),
                         cells=[row.cells.get(column, "") for column in self._columns],
+                        problem=row.problem,
                     )
                     for row in rows
                 ],

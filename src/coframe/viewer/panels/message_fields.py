@@ -15,7 +15,7 @@ from coframe.viewer.protocol.panel_messages import InspectedField
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-__all__ = ["field_paths", "message_rows"]
+__all__ = ["field_paths", "message_rows", "value_rows"]
 
 _MAX_ROWS = 400
 _MAX_DEPTH = 12
@@ -39,6 +39,11 @@ def message_rows(topic: str, message: Any) -> list[InspectedField]:
     return rows
 
 
+def value_rows(message: Any) -> Iterator[InspectedField]:
+    """Yield the fields that have a value of their own, also those of nested messages. A sequence is one value."""
+    yield from _own_values(message, "", 0)
+
+
 def field_paths(message: Any, path: str) -> list[str]:
     """Return the paths that begin with a path and end at the next field: ``pose.`` gives ``pose.position``, ...
 
@@ -57,6 +62,16 @@ def field_paths(message: Any, path: str) -> list[str]:
     wanted = begin.partition("[")[0].lower()
     names = [name for name in field_names(value)[:_MAX_NAMES] if name.lower().startswith(wanted)]
     return [prefix + name + ("[0]" if _is_sequence(_read_field(value, name)) else "") for name in names]
+
+
+def _own_values(message: Any, path: str, depth: int) -> Iterator[InspectedField]:
+    types = _types(message)
+    for name in field_names(message):
+        value, own = _read_field(message, name), f"{path}.{name}"
+        if depth < _MAX_DEPTH and field_names(value):
+            yield from _own_values(value, own, depth + 1)
+        else:
+            yield next(_value(value, own, depth, name, types.get(name, "")))  # The others are elements of a sequence.
 
 
 def _fields(message: Any, path: str, depth: int) -> Iterator[InspectedField]:

@@ -3,20 +3,24 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+import logging
+from itertools import islice
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from coframe.errors import CoframeError
-from coframe.viewer.panels.message_fields import message_rows
+from coframe.viewer.panels.message_fields import value_rows
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from coframe.viewer.protocol.panel_messages import InspectedField
     from coframe.viewer.sources.topic_messages import StampedMessage
 
-__all__ = ["TableMessage", "read_rows"]
+__all__ = ["Column", "TableMessage", "read_rows"]
 
-_MAX_COLUMNS = 40
+_logger = logging.getLogger("coframe.viewer")
+
+Column: TypeAlias = "tuple[str, str]"
+"""The path and the type of a field."""
 
 
 class TableMessage(NamedTuple):
@@ -25,41 +29,34 @@ class TableMessage(NamedTuple):
     Attributes:
         key: The key of the message.
         time: The position on the timeline in nanoseconds.
-        cells: The texts of the fields by their columns, each the path and the type of the field.
+        cells: The texts of the fields by their columns.
+        problem: Why the message cannot be read, or "".
     """
 
     key: int
     time: int
-    cells: dict[tuple[str, str], str]
+    cells: dict[Column, str]
+    problem: str = ""
 
 
-def read_rows(messages: Sequence[StampedMessage]) -> list[TableMessage]:
-    """Read messages. A message that cannot be read has one cell with the reason."""
-    return [TableMessage(one.key, one.time, _cells(one)) for one in messages]
+def read_rows(messages: Sequence[StampedMessage], max_cells: int) -> list[TableMessage]:
+    """Read the first fields of messages, which may contain anything."""
+    return [_read_row(one, max_cells) for one in messages]
 
 
-def _cells(message: StampedMessage) -> dict[tuple[str, str], str]:
+def _read_row(message: StampedMessage, max_cells: int) -> TableMessage:
+    row = TableMessage(message.key, message.time, {})
     try:
-        content: Any = message.read()
+        return row._replace(cells=_cells(message.read(), max_cells))
     except (CoframeError, ValueError) as error:
-        return {("error", ""): str(error)}
+        return row._replace(problem=f"the message cannot be read: {error}")
+    except Exception as error:
+        _logger.exception("a message could not be read for a table")
+        return row._replace(problem=f"the message cannot be read: {type(error).__name__}: {error}")
+
+
+def _cells(content: Any, max_cells: int) -> dict[Column, str]:
     if isinstance(content, bytes):
         return {("data", ""): f"{len(content)} bytes"}
-    return dict(_columns(message_rows("", content))[:_MAX_COLUMNS])
-
-
-def _columns(fields: Sequence[InspectedField]) -> list[tuple[tuple[str, str], str]]:
-    """Return the fields with a value of their own. A sequence is one column, and its elements have none."""
-    found = []
-    inside = None  # the depth of the sequence whose elements are skipped
-    for field, following in zip(fields, [*fields[1:], None], strict=True):
-        depth = field["depth"]
-        if inside is not None and depth > inside:
-            continue
-        inside = None
-        is_parent = following is not None and following["depth"] > depth
-        if is_parent and field["text"]:
-            inside = depth
-        if field["path"] and (field["text"] or not is_parent):
-            found.append(((field["path"].removeprefix("."), field["type"]), field["text"]))
-    return found
+    fields = islice(value_rows(content), max_cells)
+    return {(field["path"].removeprefix("."), field["type"]): field["text"] for field in fields}

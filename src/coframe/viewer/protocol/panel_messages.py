@@ -63,15 +63,22 @@ class TableColumn(TypedDict):
 
 
 class TableRow(TypedDict):
-    """A message; ``key`` increases from message to message, and there is one cell per column."""
+    """A message; ``key`` increases from message to message, and there is one cell per column at that time.
+
+    ``problem`` is why the message cannot be read, or "".
+    """
 
     key: int
     stamp: float
     cells: list[str]
+    problem: str
 
 
 class TopicTable(TypedDict):
-    """The last messages of a topic at the displayed time: new rows, and the ``first`` and ``last`` key of all rows."""
+    """The last messages of a topic at the displayed time: new rows, and the ``first`` and ``last`` key of all rows.
+
+    ``columns`` are added at the end when a message has other fields.
+    """
 
     type: Literal["table"]
     topic: str
