@@ -64,7 +64,7 @@ def test_the_states_of_a_recorded_field(tab):
     tab.send("states", fields=[{"id": 1, "expression": fields[1]}])
     last, changes = states(tab, 1)
     assert changes == [(1.5, "2 STATUS_EXECUTING"), (2.5, "4 STATUS_SUCCEEDED")]
-    assert last["text"] == "3 messages have no value"
+    assert last["text"] == "3 messages without a value"
     for number, text in ((2, "Did you mean 'data'?"), (3, "contains a topic, but no field")):
         tab.send("states", fields=[{"id": 7 + number, "expression": fields[number]}])
         assert text in tab.wait("states", lambda one, n=number: one["id"] == 7 + n and one["state"] == "error")["text"]
@@ -97,6 +97,26 @@ def test_the_table_follows_the_displayed_time(tab):
     assert table["rows"][0]["cells"] == ["1 element"]
     tab.send("table", topic="/nothing", rows=1)
     assert tab.wait("table", lambda table: table["topic"] == "/nothing")["text"] == "there are no messages on /nothing"
+
+
+def test_what_is_not_shown_of_states_is_said(json_tab):
+    long = ["x" * 100 + end for end in "abb"]
+    mode = [{"mode": "a"}, {}, {"mode": "b"}]
+    tab = json_tab(long=[{"text": one} for one in long], mode=mode, many=[{"n": i} for i in range(5001)], late=mode[1:])
+    for number, (field, note, expected) in enumerate(
+        [
+            ("/long.text", "", ["x" * 100 + "…"] * 2),
+            ("/mode.mode", "1 message without a value", ["a", "b"]),
+            ("/late.mode", "1 message without a value", ["b"]),
+            ("/many.n", "only the last 5000 of 5001 changes are shown", [str(i) for i in range(5001)]),
+        ]
+    ):
+        tab.send("states", fields=[{"id": number, "expression": field}])
+        last, changes = states(tab, number)
+        assert (last["state"], last["text"]) == ("ok", note)
+        assert [text for _, text in changes] == expected
+    tab.send("states", fields=[{"id": 9, "expression": "/many.m"}])
+    assert "has no field 'm'. Fields: n." in tab.wait("states", lambda one: one["state"] == "error")["text"]
 
 
 @pytest.fixture
@@ -141,7 +161,6 @@ def test_constants_give_states_their_names():
     marker = find("visualization_msgs/msg/Marker")
     assert state_text(marker(action=2), parse_state_field("/a.action"), "") == "2", "two constants have this value"
     assert state_text(marker(frame_locked=True), parse_state_field("/a.frame_locked"), "") == "true"
-    assert state_text(marker(text="x" * 500), parse_state_field("/a.text"), "") == "x" * 100 + "…"
     with pytest.raises(PlotError, match=r"is a message, not a state"):
         state_text(marker(), parse_state_field("/a.pose"), "")
     with pytest.raises(PlotError, match=r"is not a field of a topic"):

@@ -11,12 +11,15 @@ from coframe.time import DAY, HOUR, MICROSECOND, MILLISECOND, SECOND
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from coframe._base_error import CoframeError
+
 __all__ = [
     "MAX_COMPARED_LENGTH",
     "MAX_COMPARED_NAMES",
     "count",
     "did_you_mean",
     "duration",
+    "error_text",
     "join_names",
     "join_quoted",
     "seconds",
@@ -103,6 +106,12 @@ def similar_names(name: str, known: Iterable[str], *, most: int = 1) -> list[str
 def times(number: int) -> str:
     """Return ``once``, ``twice`` or ``3 times``."""
     return {1: "once", 2: "twice"}.get(number, f"{number} times")
+
+
+def error_text(error: CoframeError) -> str:
+    """Return the message of an error and its hint as sentences of one line."""
+    text = str(error)
+    return f"{text}{'' if text.endswith(('.', '!', '?')) else '.'} {error.hint}" if error.hint else text
 
 
 def count(number: int, noun: str) -> str:

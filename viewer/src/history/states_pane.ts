@@ -201,10 +201,8 @@ export class StatesPane implements Pane {
     for (const line of this.lines) {
       const { states, element, value } = line;
       element.dataset.state = states.state;
-      setText(
-        value,
-        shorten(states.state === "error" ? states.text : (states.at(playhead) ?? (states.text || "–")), 300),
-      );
+      const current = states.state === "error" ? null : states.at(playhead);
+      setText(value, shorten([current, states.text].filter(Boolean).join(" · ") || "–", 300));
       value.title = states.text;
       if (range) this.drawLine(line, range, playhead);
     }

@@ -7,6 +7,7 @@ import logging
 from functools import partial
 from typing import TYPE_CHECKING
 
+from coframe._output.formatting import count, error_text
 from coframe.errors import CoframeError
 from coframe.viewer.clients._panel_feeds import PanelFeed
 from coframe.viewer.clients._update import Update
@@ -167,7 +168,7 @@ class StatesFeed(PanelFeed):
         try:
             future.result()
         except CoframeError as error:
-            one.problem = f"{error}. {error.hint}".strip().removesuffix(".") + "."
+            one.problem = error_text(error)
         except Exception as error:  # An unexpected error in one field must not stop the others.
             _logger.exception("the states of a field could not be read")
             one.problem = f"The states cannot be read: {type(error).__name__}: {error}."
@@ -190,11 +191,13 @@ class StatesFeed(PanelFeed):
             return "error", one.problem
         if history is None:
             return "waiting", one.watched.missing_reason() if one.watched else ""
+        if history.problem:
+            return "error", error_text(history.problem)
         if history.until is None:
             return "waiting", "no message has this element" if history.skipped else "no message yet"
         if history.done < 1.0 and self._client.viewer.source.recording is not None:
             return "waiting", f"reading the recording: {100 * history.done:.0f} %"
-        return "ok", f"{history.skipped} messages have no value" if history.skipped else ""
+        return "ok", _note_of(history)
 
     def _encode(
         self,
@@ -217,3 +220,15 @@ class StatesFeed(PanelFeed):
                 changes=[StateChange(stamp=float(time - origin), text=text) for time, text in changes],
             )
         )
+
+
+def _note_of(history: StateHistory) -> str:
+    """Return what is not shown of a field, or ""."""
+    from coframe.viewer.panels.states import MAX_CHANGES  # noqa: PLC0415 - needs the message classes
+
+    notes = []
+    if history.total > MAX_CHANGES:
+        notes.append(f"only the last {MAX_CHANGES} of {count(history.total, 'change')} are shown")
+    if history.skipped:
+        notes.append(f"{count(history.skipped, 'message')} without a value")
+    return "; ".join(notes)

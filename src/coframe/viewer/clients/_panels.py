@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from coframe._output.formatting import error_text
 from coframe.errors import PlotError, ViewerError, WireError
 from coframe.viewer.panels.completion import MAX_TEXT
 from coframe.viewer.protocol.requests import BadRequestError
@@ -68,7 +69,7 @@ class WatchedTopic:
             try:
                 self.messages = self._viewer.open(self.topic)
             except (ViewerError, WireError) as error:
-                self.problem = f"{error} {error.hint}".strip()
+                self.problem = error_text(error)
 
     def release(self) -> None:
         """Release the messages."""
@@ -112,7 +113,7 @@ class ShownStates:
         try:
             self._field = parse_state_field(expression)
         except PlotError as error:
-            self.problem = f"{error}. {error.hint}".strip()
+            self.problem = error_text(error)
         else:
             self.watched = WatchedTopic(viewer, self._field.topic)
             self.open_topic()

@@ -17,9 +17,9 @@ from coframe.plotting.values import NoElementError, field_content, field_names
 if TYPE_CHECKING:
     from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 
-__all__ = ["StateHistory", "StateSpan", "parse_state_field", "state_text"]
+__all__ = ["MAX_CHANGES", "StateHistory", "StateSpan", "parse_state_field", "state_text"]
 
-_MAX_CHANGES = 5000
+MAX_CHANGES = 5000
 _MAX_TEXT = 100
 _BATCH = 500  # messages per call, so that a long recording can be interrupted
 
@@ -54,14 +54,17 @@ class StateHistory:
         total: The number of changes that were ever found.
         until: The time of the last message that was read in nanoseconds, or None before the first one.
         skipped: The number of messages without a value.
+        problem: Why no message has had a value yet, or None.
     """
 
     def __init__(self, field: FieldExpression, messages: TopicMessages) -> None:
         self._field, self._messages = field, messages
-        self._changes: deque[StateSpan] = deque(maxlen=_MAX_CHANGES)
+        self._changes: deque[StateSpan] = deque(maxlen=MAX_CHANGES)
         self._key = 0
         self.total = self.skipped = 0
         self.until: int | None = None
+        self.problem: PlotError | None = None
+        self._last_text = ""  # in full: two long texts may begin with the same characters
 
     @property
     def done(self) -> float:
@@ -73,7 +76,7 @@ class StateHistory:
         """Read the next messages, and return whether there were any.
 
         Raises:
-            PlotError: The field does not exist.
+            PlotError: The type has no such field.
         """
         newest = self._messages.at(0)
         if newest is None or newest.key <= self._key:
@@ -105,10 +108,17 @@ class StateHistory:
         except NoElementError:
             self.skipped += 1
             return
-        if self.until is None or self._changes[-1].text != text:
-            self._changes.append(StateSpan(message.time, text))
+        except PlotError as error:
+            if not isinstance(content, dict):
+                raise
+            self.skipped += 1  # Other objects of JSON may have the field.
+            self.problem = error if self.until is None else None
+            return
+        if self.until is None or self._last_text != text:
+            self._changes.append(StateSpan(message.time, _shorten(text)))
+            self._last_text = text
             self.total += 1
-        self.until = message.time
+        self.until, self.problem = message.time, None
 
 
 def state_text(message: Any, field: FieldExpression, type_: str) -> str:
@@ -120,7 +130,7 @@ def state_text(message: Any, field: FieldExpression, type_: str) -> str:
     """
     value = field_content(message, field, type_)
     if isinstance(value, str):
-        return value if len(value) <= _MAX_TEXT else f"{value[:_MAX_TEXT]}…"
+        return value
     if isinstance(value, bool | np.bool_):
         return "true" if value else "false"
     is_octet = isinstance(value, bytes) and len(value) == 1
@@ -130,8 +140,15 @@ def state_text(message: Any, field: FieldExpression, type_: str) -> str:
     if isinstance(value, float | np.floating):
         return f"{float(value):.6g}"
     names = field_names(value)
-    hint = f"Choose a field, such as {field.text}.{names[0]}." if names else ""
-    raise PlotError(f"{field.text} is a {'message' if names else 'sequence'}, not a state", hint=hint)
+    if names:
+        hint = f"Choose a field, such as {field.text}.{names[0]}."
+        raise PlotError(f"{field.text} is a message, not a state", hint=hint)
+    raise PlotError(f"{field.text} is a sequence, not a state", hint=f"Choose an element, such as {field.text}[0].")
+
+
+def _shorten(text: str) -> str:
+    """Return a text with at most 100 characters, and an ellipsis if it is longer."""
+    return text if len(text) <= _MAX_TEXT else f"{text[:_MAX_TEXT]}…"
 
 
 def _constant(message: Any, field: FieldExpression, type_: str, value: Any) -> str:
