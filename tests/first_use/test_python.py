@@ -23,6 +23,7 @@ from coframe.messages.message import complete_repr
 from coframe.trajectories import compare_trajectories
 
 SECOND = 1_000_000_000
+PNG_HEAD = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR"
 HOSTILE = "<img src=x onerror=alert(1)>\x1b[31m\n\u202e\"'&"
 
 
@@ -248,16 +249,48 @@ def test_compressed_images_in_notebooks():
 
 
 @pytest.mark.parametrize(
-    "fields",
+    ("fields", "reason"),
     [
-        {},
-        {"height": 2**31, "width": 2**31, "encoding": "rgb8", "step": 3, "data": b"123"},
-        {"height": 1, "width": 1, "encoding": HOSTILE, "step": 3, "data": b"123"},
+        ({}, ""),
+        (
+            {"height": 2**31, "width": 2**31, "encoding": "rgb8", "step": 3, "data": b"123"},
+            "There is no picture: an image of 2147483648 x 2147483648 pixels has only 3 bytes, 3 per row|",
+        ),
+        (
+            {"height": 1, "width": 1, "encoding": HOSTILE, "step": 3, "data": b"123"},
+            "There is no picture: image encoding ",
+        ),
     ],
     ids=["empty", "too large", "unknown encoding"],
 )
-def test_images_that_cannot_be_read_have_no_picture(fields):
-    assert shown(find("sensor_msgs/msg/Image")(**fields)).startswith("sensor_msgs/msg/Image|header")
+def test_images_that_cannot_be_read_have_no_picture_but_a_reason(fields, reason):
+    assert shown(find("sensor_msgs/msg/Image")(**fields)).startswith(f"sensor_msgs/msg/Image|{reason or 'header'}")
+
+
+@pytest.mark.parametrize(
+    ("data", "reason"),
+    [
+        (b"\0\0\1h264", "the data is neither JPEG nor PNG"),
+        (PNG_HEAD + b"\xff" * 8 + b"\x08\x02", "4294967295 x 4294967295 pixels exceed the maximum of 33554432"),
+        (PNG_HEAD + b"\0\0\0\1" * 2 + b"\x08\x02" + bytes(2 << 20), "2097178 bytes exceed the maximum of 2097152 for"),
+    ],
+    ids=["video", "many pixels", "many bytes"],
+)
+def test_compressed_images_that_cannot_be_shown_have_a_reason(data, reason):
+    assert f"There is no picture: {reason}" in shown(find("sensor_msgs/msg/CompressedImage")(format="x", data=data))
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("encoding", ["32FC1", "64FC1", "64FC3"])
+def test_infinite_values_have_a_picture_without_warnings(encoding):
+    dtype = np.dtype(f"<f{int(encoding[:2]) // 8}")
+    values = np.array([np.inf, -np.inf, np.finfo(dtype).max, np.finfo(dtype).min, np.nan, 1.0], dtype)
+    channels = int(encoding[-1])
+    columns = values.size // channels
+    message = find("sensor_msgs/msg/Image")(
+        height=1, width=columns, encoding=encoding, step=values.nbytes, data=values.tobytes()
+    )
+    assert picture_in(message).shape[:2] == (1, columns)
 
 
 def test_recorded_topics_and_messages_in_notebooks(tmp_path):

@@ -10,6 +10,7 @@ from typing import Any, ClassVar, Final
 import numpy as np
 
 from coframe._output import html_tables
+from coframe.errors import DecodeError
 from coframe.messages._fields import CHECKS_FIELDS, Check, attribute, constructor_conversion, number_of
 from coframe.messages._yaml_text import to_yaml
 from coframe.messages.definition import AbstractNestedType, AbstractSequence, AbstractType, describe
@@ -85,8 +86,11 @@ class Message(metaclass=MessageType):
         from coframe.sensors.message_pictures import picture_of  # noqa: PLC0415 - sensors are above this module
 
         lines = to_yaml(self, max_items=html_tables.MAX_ROWS).splitlines()
-        picture = picture_of(self)
-        image = html_tables.image(picture, self.ROS_TYPE) if picture else ""
+        try:
+            picture = picture_of(self)
+            image = html_tables.image(picture, self.ROS_TYPE) if picture else ""
+        except DecodeError as error:
+            image = html_tables.paragraph(f"There is no picture: {error}")
         return html_tables.section(self.ROS_TYPE, image, html_tables.preformatted(lines))
 
 

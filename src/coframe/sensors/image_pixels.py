@@ -102,7 +102,9 @@ def _eight_bits(colors: Pixels) -> Pixels:
         return colors
     if colors.dtype.kind == "u":
         return ((colors.astype(np.uint32) * 255 + _MAX_16_BITS // 2) // _MAX_16_BITS).astype(np.uint8)
-    return (np.clip(np.nan_to_num(colors.astype(np.float32)), 0.0, 1.0) * 255.0 + 0.5).astype(np.uint8)
+    with np.errstate(over="ignore"):  # Values that are too large for float32 become infinite.
+        values = colors.astype(np.float32)
+    return (np.clip(np.nan_to_num(values), 0.0, 1.0) * 255.0 + 0.5).astype(np.uint8)
 
 
 def _demosaic(raw: Pixels, pattern: str) -> Pixels:

@@ -10,9 +10,7 @@ import numpy as np
 from coframe._output.png import encode_png
 from coframe.errors import DecodeError
 from coframe.sensors.compressed_images import (
-    JPEG_SIGNATURE,
     MAX_COMPRESSED_PIXELS,
-    PNG_SIGNATURE,
     compressed_size,
 )
 from coframe.sensors.depth_images import decode_compressed_depth, decode_gray_png, is_gray_16
@@ -44,31 +42,37 @@ _HEAD = 1 << 16  # bytes in which the size of a JPEG or PNG image is
 
 
 def picture_of(message: Message) -> bytes | None:
-    """Return an Image or CompressedImage as JPEG or PNG, or None for other messages and for images that cannot be read.
+    """Return an Image or CompressedImage as JPEG or PNG, or None for other messages and for images without data.
 
     Values that are not colors, such as depths, are scaled from their minimum and maximum to black and white.
+
+    Raises:
+        DecodeError: The image cannot be read, or is too large.
     """
     fields = message.get_fields_and_field_types().items()
-    try:
-        if fields >= _IMAGE_FIELDS.items():
-            return _encode(decode_image(message))
-        if fields >= _COMPRESSED_FIELDS.items():
-            return _compressed(message)
-    except DecodeError:
+    if fields >= _IMAGE_FIELDS.items():
+        return _encode_image(message)
+    return _encode_compressed(message) if fields >= _COMPRESSED_FIELDS.items() else None
+
+
+def _encode_image(message: Any) -> bytes | None:
+    return _encode(decode_image(message)) if len(message.data) else None
+
+
+def _encode_compressed(message: Any) -> bytes | None:
+    if not len(message.data):
         return None
-    return None
-
-
-def _compressed(message: Any) -> bytes | None:
     if "compressedDepth" in message.format:
         return _encode(decode_compressed_depth(message))
     data = bytes(message.data)
-    if not data.startswith((JPEG_SIGNATURE, PNG_SIGNATURE)):
-        return None
     if is_gray_16(data):  # A browser would show the millimeters of a depth image as black.
         return _encode(decode_gray_png(data))
     width, height = compressed_size(data[:_HEAD])
-    return data if width * height <= MAX_COMPRESSED_PIXELS and len(data) <= MAX_PICTURE_BYTES else None
+    if width * height > MAX_COMPRESSED_PIXELS:
+        raise DecodeError(f"{width} x {height} pixels exceed the maximum of {MAX_COMPRESSED_PIXELS}")
+    if len(data) > MAX_PICTURE_BYTES:
+        raise DecodeError(f"{len(data)} bytes exceed the maximum of {MAX_PICTURE_BYTES} for pictures in notebooks")
+    return data
 
 
 def _encode(pixels: Pixels) -> bytes:
@@ -82,5 +86,5 @@ def _eight_bits(pixels: Pixels) -> NDArray[np.uint8]:
     values = pixels.astype(np.float64)
     finite = values[np.isfinite(values)]
     lowest, highest = (finite.min(), finite.max()) if finite.size else (0.0, 0.0)
-    scaled = (values - lowest) * (255.0 / (highest - lowest) if highest > lowest else 0.0)
-    return np.clip(np.nan_to_num(scaled, posinf=255.0, neginf=0.0), 0.0, 255.0).astype(np.uint8)
+    scaled = (np.clip(values, lowest, highest) - lowest) * (255.0 / (highest - lowest) if highest > lowest else 0.0)
+    return np.nan_to_num(scaled).astype(np.uint8)
