@@ -89,7 +89,7 @@ export function showPage(source: MessageSource): void {
     if (source.live) dock.restore();
   });
   const undo = new Undo(displays, view);
-  for (const event of ["rviz", "hello"] as const) model.on(event, () => undo.clear());
+  model.on("rviz", () => undo.clear());
   const movie = new MovieRecorder(byId("overlay"), model, view);
   new Inspector(byId("inspector"), model, view);
   new PartsPanel(byId("parts"), model, view, source.live);
