@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Hostile input is rejected with a message or shown as text, and the viewer keeps working."""
 
+import csv
 import json
 
 import pytest
+import recordings
 
 import coframe
 from coframe.messages import find
@@ -282,3 +284,26 @@ def test_settings_of_any_form_leave_the_page_usable(view, open_page, settings):
         names = page.evaluate("[...document.querySelectorAll('.card')].map(card => card.dataset.display)")
         assert [name for name in names if name.startswith("in ")] == ["in A", "in B", "in C", "in D"]
         assert page.raw.locator("#views button:text('kept')").count() == 1
+
+
+def test_a_message_that_cannot_be_read_is_named_in_the_table_and_in_its_file(tmp_path, view, open_page):
+    reports = enumerate((b'{"a": 1}', b"{", b'{"b": 2}'))
+    rows = [*recordings.messages(), *(("/report", recordings.START + i, data) for i, data in reports)]
+    types = {"/report": ("Report", "jsonschema", b"{}", "json")}
+    recordings.write_mcap(tmp_path / "report.mcap", rows=rows, types=types)
+    page = open_page(f"{view(tmp_path / 'report.mcap').url}#panel=table")
+    page.raw.fill("#pane-table input", "/report")
+    page.key("Enter")
+    page.scrub(0.9)
+    page.wait(lambda: page.text("#table-facts") == "Report · 3 messages", "the messages")
+    assert page.texts("#pane-table thead th") == ["time", "a", "b"]
+    cells = [row.split("\t")[1:] for row in page.texts("#table-rows tr")]
+    assert cells[0] == ["", "2"]
+    assert cells[2][0] == "1"  # It may have been shown before the table had two columns.
+    assert cells[1][0].startswith("the message cannot be read: Report:")
+    with page.raw.expect_download() as download:
+        page.click("#pane-table button:text('CSV')")
+    written = list(csv.reader(download.value.path().read_text("utf-8").splitlines()))
+    assert written[0] == ["stamp_ns", "a", "b", "problem"]
+    assert written[1] == [str(recordings.START), "1", "", ""]
+    assert written[2][3].startswith("the message cannot be read: Report:")
