@@ -66,7 +66,7 @@ def test_the_curves_of_a_recording_are_those_of_coframe_plot(view, open_tab, rec
     assert [float(row[2]) for row in rows[1:] if row[2]] == rate.values[np.isfinite(rate.values)].tolist()
     connection.request("GET", "/curves.csv?curve=%2Ftf.other")
     answer = connection.getresponse()
-    assert (answer.status, answer.read()) == (400, b"/tf.other is not shown Add the curve to the plot first.\n")
+    assert (answer.status, answer.read()) == (400, b"/tf.other is not shown. Add the curve to the plot first.\n")
     connection.close()
 
 

@@ -13,6 +13,7 @@ import time
 from contextlib import closing
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from coframe._output.formatting import error_text
 from coframe.errors import RecordingError, ViewerError, WireError
 from coframe.viewer.protocol.server_messages import FindingEntry
 
@@ -115,7 +116,7 @@ class _FindingsJob:
         except StopIteration:
             return
         except (RecordingError, ViewerError, WireError) as error:
-            self.report = FindingsReport("failed", f"{error} {error.hint}".strip())
+            self.report = FindingsReport("failed", error_text(error))
         except Exception:
             _logger.exception("the doctor failed; the viewer continues without findings")
             self.report = FindingsReport("failed", "The doctor failed. The server's log contains the error.")

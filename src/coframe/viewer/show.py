@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from coframe._files.complete_files import write_complete
 from coframe._output import html_tables
+from coframe._output.formatting import error_text
 from coframe._process.optional_imports import pip_install
 from coframe.buffer import Buffer
 from coframe.connection.connection import Connection
@@ -160,7 +161,7 @@ class Viewer:
         try:
             return replay_frame(self._export(self._sources[-1]))
         except ViewerError as error:
-            return html_tables.paragraph(f"{error} {error.hint}")
+            return html_tables.paragraph(error_text(error))
 
 
 def show(

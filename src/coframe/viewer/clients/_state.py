@@ -8,6 +8,7 @@ import dataclasses
 import itertools
 from typing import TYPE_CHECKING
 
+from coframe._output.formatting import error_text
 from coframe.errors import ViewerError, WireError
 from coframe.viewer._failures import report_failure
 from coframe.viewer._state import FRAME_TIMEOUT
@@ -200,7 +201,7 @@ class ClientState:
         try:
             self._open_all(number, subscription)
         except (ViewerError, WireError) as error:
-            subscription.problem = f"{error}. {error.hint}" if error.hint else str(error)
+            subscription.problem = error_text(error)
         except Exception as error:  # noqa: BLE001 - one failure must not stop the others
             self.fail(subscription, error)
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from coframe._output.formatting import count
+from coframe._output.formatting import count, error_text
 from coframe.errors import ConnectivityException, ExtrapolationException, LookupException, TransformException
 from coframe.time import SECOND
 from coframe.viewer._failures import report_failure
@@ -343,4 +343,4 @@ def _render(renderer: Renderer, message: StampedMessage, now: int, at: int) -> _
 
 
 def _with_hint(error: TransformException) -> str:
-    return f"{error} {error.hint}".strip()
+    return error_text(error)

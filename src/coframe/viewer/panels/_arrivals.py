@@ -6,6 +6,7 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING, Any
 
+from coframe._output.formatting import error_text
 from coframe.errors import DecodeError, WireError
 from coframe.messages import deserialize, find
 from coframe.messages.header_peek import stamp_reader
@@ -128,7 +129,7 @@ class Arrivals:
                 capacity=_CAPACITY,
             )
         except WireError as error:
-            self.problem = f"{error} {error.hint}".strip()
+            self.problem = error_text(error)
             return None
 
 

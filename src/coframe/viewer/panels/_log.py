@@ -9,6 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
+from coframe._output.formatting import error_text
 from coframe.errors import CoframeError, DecodeError, WireError
 from coframe.messages import deserialize, find
 from coframe.time import SECOND
@@ -132,7 +133,7 @@ class Log:
             self._subscription = AdaptiveSubscription(offers, subscribe, depth=_DEPTH)
             self.text = ""
         except WireError as error:
-            self.text = f"{error} {error.hint}".strip()
+            self.text = error_text(error)
 
     def _start_reading(self, recording: Recording) -> None:
         if self._executor is not None:
@@ -162,7 +163,7 @@ class Log:
         try:
             lines = reading.result()
         except CoframeError as error:
-            self.text = f"{error} {error.hint}".strip()
+            self.text = error_text(error)
             return
         self.text = f"The last {_MAX_RECORDED} messages." if len(lines) == _MAX_RECORDED else ""
         self._add(lines)

@@ -16,6 +16,7 @@ from urllib.parse import parse_qsl, unquote, urlencode, urlsplit
 
 from coframe._files.os_errors import explain
 from coframe._files.regular_files import read_regular
+from coframe._output.formatting import error_text
 from coframe.errors import PlotError, ViewerError
 from coframe.viewer._page_files import STATIC
 from coframe.viewer.replay.page import ReplayContent, replay_page
@@ -262,7 +263,7 @@ class ViewerServer:
                 content = ReplayContent(state.source.buffer, messages, robots, state.meshes, nodes)
                 page = await self._loop.run_in_executor(state.executor, replay_page, self._static, content, replay)
         except ViewerError as error:
-            return text_response(HTTPStatus.BAD_REQUEST, f"{error} {error.hint}".strip(), policy)
+            return text_response(HTTPStatus.BAD_REQUEST, error_text(error), policy)
         attachment = {"Content-Disposition": 'attachment; filename="coframe-replay.html"'}
         return response(HTTPStatus.OK, page, "text/html; charset=utf-8", policy, attachment)
 
@@ -273,7 +274,7 @@ class ViewerServer:
             table = self._state.panels.curves.table(expressions)
             text = await self._loop.run_in_executor(self._state.executor, table.as_csv)
         except PlotError as error:
-            return text_response(HTTPStatus.BAD_REQUEST, f"{error} {error.hint}".strip(), policy)
+            return text_response(HTTPStatus.BAD_REQUEST, error_text(error), policy)
         attachment = {"Content-Disposition": 'attachment; filename="coframe-curves.csv"'}
         return response(HTTPStatus.OK, text.encode(), "text/csv; charset=utf-8", policy, attachment)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import Any, Literal, TypedDict
 
+from coframe._output.formatting import error_text
 from coframe.cameras import CameraError, lens_of
 from coframe.viewer.displays._drawing import NO_NUMBERS, Drawing, Options, drawing_of_shapes, finite_all, header_of
 from coframe.viewer.displays._renderers import draw_each_message
@@ -41,7 +42,7 @@ def draw_camera(message: Any, options: Options) -> Drawing:
         lens = lens_of(model, d)
         model, d = lens.name, lens.coefficients
     except CameraError as error:
-        problem = f"{error}. {error.hint}"
+        problem = error_text(error)
     roi = message.roi
     description = CameraShape(
         kind="camera",
