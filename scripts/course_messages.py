@@ -194,10 +194,19 @@ def all_messages() -> dict[str, list[str]]:
     return {domain: list(dict.fromkeys(sources[domain]())) for domain in DOMAINS}
 
 
+def language_code(text: str) -> str:
+    """Return a code, which becomes the name of a folder."""
+    if not re.fullmatch(r"[a-z]{2,3}", text):
+        raise argparse.ArgumentTypeError(f"{text!r} is not the code of a language, such as de")
+    return text
+
+
 def main() -> int:
     """Update or check the catalogues."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("language", nargs="*", default=[code for code in languages() if code != "en"])
+    parser.add_argument(
+        "language", nargs="*", type=language_code, default=[code for code in languages() if code != "en"]
+    )
     parser.add_argument("--check", action="store_true", help="only report missing and obsolete messages")
     options = parser.parse_args()
     status = 0

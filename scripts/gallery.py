@@ -46,10 +46,14 @@ NODES = {
 NOTEBOOK = "09_notebook"
 
 
+def example_files() -> list[Path]:
+    return sorted(EXAMPLES.glob("[0-9]*"))
+
+
 def draw(browser: Browser, start: str = "") -> None:
     """Draw the pictures of the examples whose names begin with `start`."""
     PICTURES.mkdir(exist_ok=True)
-    for path in sorted(EXAMPLES.glob("[0-9]*")):
+    for path in example_files():
         if path.name.startswith(start):
             source = path.read_text("utf-8")
             if "show_scene" in source:

@@ -196,6 +196,10 @@ def main() -> None:
     if program is None:
         sys.exit("The pictures need Chromium: apt-get install chromium")
     wanted = tuple(sys.argv[1:]) or ("",)
+    known = ["viewer", "figures", "demo", *(chapter.name for chapter in CHAPTERS)]
+    known += [f"gallery/{path.name}" for path in gallery.example_files()]
+    if unknown := [name for name in wanted if not any(each.startswith(name) for each in known)]:
+        sys.exit(f"No picture has a name that begins with {unknown[0]!r}. Pictures: {', '.join(known)}.")
     if "figures".startswith(wanted):
         for script in FIGURES:
             subprocess.run([sys.executable, DOCS.parent / "scripts" / script], check=True)
