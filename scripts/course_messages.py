@@ -31,7 +31,7 @@ MODULES = (
         for name in ("_program", "_confinement", "_sheet", "_world", "assignment", "checking", "class_folder")
     ),
     *(COURSE / f"{name}.py" for name in ("faults", "first_output", "folders", "formats", "isolation")),
-    *(COURSE / f"{name}.py" for name in ("rubric", "submitted")),
+    *(COURSE / f"{name}.py" for name in ("rubric", "running", "submitted")),
     SOURCE / "doctor" / "pose_mistakes.py",
     SOURCE / "doctor" / "quaternion_causes.py",
     SOURCE / "doctor" / "checks" / "late_listeners.py",
@@ -39,7 +39,7 @@ MODULES = (
 # Here only the arguments of Language.text and Language.label are shown to students.
 CALLERS = (SOURCE / "cli" / "lab.py", COURSE / "handbook.py", COURSE / "translation" / "language.py")
 # Arguments of these functions are not shown, and neither are values of these names.
-_NO_TEXT = {"compile", "replace", "rpartition"}
+_NO_TEXT = {"compile", "module_program", "replace", "rpartition", "write"}
 _NO_TEXT_NAMES = {"_FAILURES", "_UNKNOWN_FRAME"}
 _CODE = ("import ", "coframe.", "<", "nan", "xyz", "replace", "pass", "fail")
 _SENTENCE = re.compile(

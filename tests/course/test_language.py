@@ -193,7 +193,11 @@ def test_errors_are_in_the_language_of_the_command(tmp_path):
 
     place = str(tmp_path / "lab")
     assert "Es gibt keinen Ordner" in error_of("check", place, "--language", "de")
-    create_folder(tmp_path / "lab", None, ENGLISH)
+    create_folder(tmp_path / "lab", None, GERMAN)
+    for name in file_names():
+        if name.endswith(".py"):
+            (tmp_path / "lab" / name).unlink()
+    assert "enthält keine der Dateien" in error_of("run", place, "--no-browser")
     again = error_of("new", place, "--language", "de")
     assert "enthält bereits" in again
     assert "nichts wird überschrieben" in again

@@ -151,7 +151,7 @@ def run(
         programs += simulation(joints=joints, gripper=gripper)
         sentence = "Your nodes are running with a simulated robot. Press Ctrl-C to stop them. The viewer shows them:"
         print(language.text(sentence), flush=True)
-        _run(programs, seconds, browser=browser, port=port, names_silent=True)
+        _run(programs, seconds, browser=browser, port=port, silence_language=language)
 
 
 @lab.command(short_help="Grade one student's folder, or a whole class.")
@@ -426,11 +426,11 @@ def _run(
     *,
     browser: bool,
     port: int | None,
-    names_silent: bool = False,
+    silence_language: Language | None = None,
 ) -> None:
     """Run programs and the viewer until Ctrl-C or for a given time, and print the output of the programs.
 
-    With `names_silent`, a message about each program that publishes nothing is printed after a few seconds.
+    With `silence_language`, a message in it about each program that publishes nothing is printed after a few seconds.
     """
     width = max(len(program.name) for program in programs)
     closed = threading.Event()  # The reader of a pipe, such as `head`, closed it.
@@ -442,12 +442,12 @@ def _run(
             closed.set()
 
     with connect("coframe_lab") as ros, optional_viewer(ros, port, browser=browser), running(programs, write):
-        if names_silent and (seconds is None or seconds > _FIRST_OUTPUT):
+        if silence_language and (seconds is None or seconds > _FIRST_OUTPUT):
             started = time.monotonic()
             first = FirstOutput(ros, programs)
             first.wait(closed, _FIRST_OUTPUT, _MAX_STARTUP if seconds is None else min(seconds, _MAX_STARTUP))
             for name, sentence in first.missing():
-                write(name, choose_language().text(sentence))
+                write(name, silence_language.text(sentence))
             first.close()
             seconds = None if seconds is None else max(0.0, seconds - (time.monotonic() - started))
         closed.wait(seconds)
