@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner
 
 from coframe.cli.app import app
-from coframe.course import formats
+from coframe.course import class_folder, formats
 from coframe.course._sheet import Sheet
 from coframe.course.assignment import recorded_language
 from coframe.course.faults import FAULTS, named_fault
@@ -99,6 +99,8 @@ def test_sentences_keep_their_values_first_letters_and_full_stops():
     crashed = GERMAN.text("The program exited with an error in line 3 of a.py: E: x.")
     assert crashed == "Das Programm ist mit einem Fehler in Zeile 3 von a.py beendet worden: E: x."
     assert ENGLISH.text("the node ended") == "the node ended"
+    for sentence in (formats.UNFINISHED_NOTICE, class_folder._LINK.format("bob")):
+        assert GERMAN.has(sentence), sentence
 
 
 @pytest.mark.parametrize("name", [name for name in file_names() if name.endswith(".py")])

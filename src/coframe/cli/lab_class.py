@@ -35,7 +35,6 @@ if TYPE_CHECKING:
 __all__ = ["ClassOptions", "grade_class"]
 
 _MISSING = "There is no submission."
-_UNFINISHED = "The check was interrupted; only the criteria before that count."
 
 
 class ClassOptions(NamedTuple):
@@ -131,7 +130,7 @@ class _Grading:
             def done(name: str, result: dict[str, Any] | CourseError, is_complete: bool) -> None:
                 report = result if isinstance(result, dict) else formats.ungraded_report(name, str(result))
                 if not is_complete:
-                    report["notices"] = [*report["notices"], _UNFINISHED]
+                    report["notices"] = [*report["notices"], formats.UNFINISHED_NOTICE]
                 self.reports[name] = report
                 if self.journal is not None and is_complete:
                     self.journal.add(name, self._key(name), report)

@@ -30,7 +30,7 @@ _MAX_FOLDERS = 200  # maximum number of files in a folder among which the files 
 _CANVAS = re.compile(r"(?P<name>[^_]+)(?P<late>_LATE)?_(?P<user>\d+)_(?P<submission>\d+)_(?P<file>.+)", re.IGNORECASE)
 _VERSION = re.compile(r"-(\d+)$")  # of a file that was handed in again with the same name
 _MACOS = "__MACOSX"
-_LINK = "{} is a link to another folder. Links of submissions are not followed. Replace it with a copy of that folder."
+_LINK = "{0} is a link to another folder. Links of submissions are not followed. Replace it with a copy of that folder."
 
 
 class Submission(NamedTuple):

@@ -14,8 +14,19 @@ if TYPE_CHECKING:
 
     from coframe.course.translation.language import Language
 
-__all__ = ["classroom", "csv_row", "details", "gradescope", "is_skipped", "text", "total_line", "ungraded_report"]
+__all__ = [
+    "UNFINISHED_NOTICE",
+    "classroom",
+    "csv_row",
+    "details",
+    "gradescope",
+    "is_skipped",
+    "text",
+    "total_line",
+    "ungraded_report",
+]
 
+UNFINISHED_NOTICE = "The check was interrupted; only the criteria before that count."
 _WIDTH = 100
 _FOLDER = "Folder"  # represents all criteria of a folder that could not be graded
 
