@@ -68,8 +68,10 @@ def test_the_states_of_a_recorded_field(tab):
     for number, text in ((2, "Did you mean 'data'?"), (3, "contains a topic, but no field")):
         tab.send("states", fields=[{"id": 7 + number, "expression": fields[number]}])
         assert text in tab.wait("states", lambda one, n=number: one["id"] == 7 + n and one["state"] == "error")["text"]
-    tab.send("states", fields=[{"id": 4, "expression": fields[4]}])
-    assert tab.wait("states", lambda one: one["id"] == 4)["text"] == "there are no messages on /nothing"
+    for _ in range(10):  # Each request has an answer, also if an earlier one was the same.
+        tab.send("states", fields=[{"id": 4, "expression": fields[4]}])
+        assert tab.wait("states", lambda one: one["id"] == 4)["text"] == "there are no messages on /nothing"
+        tab.send("states", fields=[])
     tab.send("states", fields=[{"id": i, "expression": "/state.data"} for i in range(17)])
     assert "at most 16 fields" in tab.wait("problem")["text"]
 
@@ -115,6 +117,15 @@ def test_what_is_not_shown_of_states_is_said(json_tab):
         last, changes = states(tab, number)
         assert (last["state"], last["text"]) == ("ok", note)
         assert [text for _, text in changes] == expected
+    tab.send("states", fields=[{"id": id_, "expression": "/many.n"} for id_ in (5, 6)])
+    order = []
+
+    def collect(message):
+        order.extend([message["id"]] * len(message["changes"]))
+        return order.count(5) == order.count(6) == 5001
+
+    tab.wait("states", collect)
+    assert 5 in order[order.index(6) :], "the fields are not read in turn"
     tab.send("states", fields=[{"id": 9, "expression": "/many.m"}])
     assert "has no field 'm'. Fields: n." in tab.wait("states", lambda one: one["state"] == "error")["text"]
 

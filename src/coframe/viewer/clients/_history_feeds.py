@@ -60,7 +60,7 @@ class TableFeed(PanelFeed):
             watched.open_topic()
         if watched.messages is None:
             why = watched.missing_reason()
-            yield Update("table", (id(watched), why), partial(self._encode, watched, "waiting", why, [], []))
+            yield Update("table", (watched.serial, why), partial(self._encode, watched, "waiting", why, [], []))
             return
         shown = watched.messages.before(self._client.at, self._panels.table_rows)
         keys = [one.key for one in shown]
@@ -81,7 +81,7 @@ class TableFeed(PanelFeed):
         else:
             self._sent.intersection_update(keys)
             text = self._note if keys else "no message yet"
-            span = (id(watched), keys[:1], keys[-1:])
+            span = (watched.serial, keys[:1], keys[-1:])
             yield Update("table", span, partial(self._encode, watched, "ok" if keys else "waiting", text, keys, []))
 
     @property
@@ -183,7 +183,7 @@ class StatesFeed(PanelFeed):
             changes = history.since(one.seen or 0)
             reset, one.seen = one.seen is None, total
             yield Update(None, None, partial(self._encode, number, (state, text), until, changes, reset=reset))
-        version = (id(one), state, text, until)
+        version = (one.serial, state, text, until)
         yield Update(("states", number), version, partial(self._encode, number, (state, text), until, (), reset=False))
 
     def _status(self, one: ShownStates, history: StateHistory | None) -> tuple[DisplayState, str]:

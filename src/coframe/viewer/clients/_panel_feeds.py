@@ -124,7 +124,7 @@ class InspectionFeed(PanelFeed):
             self.due = now + _READING_PERIOD
         publishers = self._publishers(watched.topic)
         if self._shown_message.topic is watched:
-            version = (id(watched), self._shown_message.key, publishers)
+            version = (watched.serial, self._shown_message.key, publishers)
             yield Update("inspection", version, partial(self._encode, publishers))
 
     def _read(self, watched: WatchedTopic) -> None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import TYPE_CHECKING
 
 from coframe._output.formatting import error_text
@@ -23,6 +24,7 @@ __all__ = ["ClientPanels", "ShownCurve", "ShownStates", "WatchedTopic"]
 
 _MAX_CURVES = 32
 _MAX_STATES = 16
+_serials = itertools.count(1)
 
 
 class ShownCurve:
@@ -54,10 +56,12 @@ class WatchedTopic:
     Attributes:
         messages: The messages, or None if the topic does not exist.
         problem: Why it cannot be opened, or "".
+        serial: A number that no other topic has. The identity of an object may be that of an earlier one.
     """
 
     def __init__(self, viewer: ViewerState, topic: str) -> None:
         self.topic = topic
+        self.serial = next(_serials)
         self.messages: TopicMessages | None = None
         self.problem = ""
         self._viewer = viewer
@@ -100,12 +104,14 @@ class ShownStates:
         problem: Why there are no states, or "".
         history: The states, or None while the topic does not exist.
         seen: The number of changes that were sent, or None before the first message.
+        serial: A number that no other field has.
     """
 
     def __init__(self, viewer: ViewerState, expression: str) -> None:
         from coframe.viewer.panels.states import parse_state_field  # noqa: PLC0415 - needs the message classes
 
         self.expression = expression
+        self.serial = next(_serials)
         self.watched: WatchedTopic | None = None
         self.history: StateHistory | None = None
         self.problem = ""
