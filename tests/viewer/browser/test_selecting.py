@@ -221,6 +221,8 @@ def test_the_camera_is_moved_as_in_rviz_and_by_keys_and_views_are_saved_and_shar
     page.wait(lambda: np.allclose(camera()["target"], [0, 0, 0]), "the zero view")
     page.click("#saved-views button:text('from the left')")
     page.wait(lambda: np.allclose(camera()["position"], saved["position"], atol=1e-3), "the saved view")
+    page.raw.locator("#canvas").focus()
+    page.key("b")
     page.click("#views button:text('Copy link')")
     page.wait(lambda: "link" in page.text("#toasts"), "the confirmation")
     page.raw.context.grant_permissions(["clipboard-read"])
@@ -229,6 +231,7 @@ def test_the_camera_is_moved_as_in_rviz_and_by_keys_and_views_are_saved_and_shar
     other.wait(
         lambda: np.allclose(other.evaluate("coframe.camera.position"), saved["position"], atol=1e-3), "the shared view"
     )
+    assert other.raw.locator("#panel").is_hidden(), "as in the shared layout"
 
 
 def test_arrow_keys_move_the_slider_with_the_focus_and_not_the_time(view, open_page, tmp_path):
