@@ -63,6 +63,8 @@ export class View {
   private readonly bounds: (() => THREE.Box3)[] = [];
   private chain: number[] = [];
   private readonly picker = new Picker();
+  /** Where the first click of a double-click was: it can open a panel, which moves the scene under the pointer. */
+  private readonly firstClick = new Picker();
   private readonly surfaces: (() => THREE.Object3D[])[] = [];
   private readonly clickListeners: ((event: PointerEvent) => boolean)[] = [];
   private readonly missListeners: ((event: PointerEvent) => boolean)[] = [];
@@ -215,10 +217,9 @@ export class View {
     };
   }
 
-  /** Looks at the surface, or the ground, under the pointer. */
-  focus(event: MouseEvent): void {
-    this.aim(event);
-    const point = this.picker.surface(this.surfaces.flatMap((found) => found())) ?? this.groundAt(event);
+  /** Looks at the surface, or the ground, that a ray hits. */
+  private focus(picker: Picker): void {
+    const point = this.pointOn(picker);
     if (!point) return;
     this.cameraChosen = true;
     this.renderer.camera.lookAt(point);
@@ -238,7 +239,7 @@ export class View {
 
   groundAt(event: MouseEvent): THREE.Vector3 | null {
     this.aim(event);
-    return this.picker.ground(-this.framePoses.origin[2]);
+    return this.groundOn(this.picker);
   }
 
   inFixedFrame(point: THREE.Vector3): Vector {
@@ -436,8 +437,11 @@ export class View {
       if (this.tools.active) this.use(event, frame);
       else if (!this.adjuster.isHovered && !this.clickListeners.some((used) => used(event))) this.click(event, frame);
     });
+    canvas.addEventListener("mousedown", (event) => {
+      if (event.detail === 1) this.aim(event, this.firstClick);
+    });
     canvas.addEventListener("dblclick", (event) => {
-      if (!this.tools.active && event.button === 0) this.focus(event);
+      if (!this.tools.active && event.button === 0) this.focus(this.firstClick);
     });
   }
 
@@ -449,7 +453,7 @@ export class View {
   /** Uses the active tool at a frame, on a surface or on the ground plane. */
   private use(event: PointerEvent, frame: string | null): void {
     this.aim(event);
-    const surface = this.picker.surface(this.surfaces.flatMap((found) => found())) ?? this.groundAt(event);
+    const surface = this.pointOn(this.picker);
     const point = surface && this.inFixedFrame(surface);
     if (this.tools.active === "measure") {
       const end = frame ?? point;
@@ -459,15 +463,24 @@ export class View {
       for (const listener of this.pointListeners) listener(point);
     } else if (this.tools.active === "focus") {
       this.tools.choose(null);
-      this.focus(event);
+      this.focus(this.picker);
     }
     this.refresh();
   }
 
-  private aim(event: MouseEvent): void {
+  /** The point of a surface, or of the ground, that a ray hits. */
+  private pointOn(picker: Picker): THREE.Vector3 | null {
+    return picker.surface(this.surfaces.flatMap((found) => found())) ?? this.groundOn(picker);
+  }
+
+  private groundOn(picker: Picker): THREE.Vector3 | null {
+    return picker.ground(-this.framePoses.origin[2]);
+  }
+
+  private aim(event: MouseEvent, picker = this.picker): void {
     const { camera, canvas, width, height } = this.renderer;
     const bounds = canvas.getBoundingClientRect();
-    this.picker.aim(camera.current, event.clientX - bounds.left, event.clientY - bounds.top, width, height);
+    picker.aim(camera.current, event.clientX - bounds.left, event.clientY - bounds.top, width, height);
   }
 
   private positionOf(end: MeasuredEnd): THREE.Vector3 | null {
