@@ -21,7 +21,7 @@ import coframe
 from coframe.messages import find, serialize
 from coframe.viewer.displays import CannotDrawError, Options
 from coframe.viewer.displays._renderers import draw_each_message
-from coframe.viewer.displays._row import DisplayRow, NumberOption
+from coframe.viewer.displays._row import QUALITY_OPTIONS, DisplayRow, NumberOption
 from coframe.viewer.displays.resources import Resources
 from coframe.viewer.displays.rows import DISPLAY_OF_TYPE, DISPLAYS, MAX_AUTOMATIC_DISPLAYS, displayable
 from coframe.viewer.replay.export import export_replay
@@ -330,13 +330,16 @@ def test_the_row_of_a_display_is_complete(name):
     types, options, properties = PROMISED[name]
     row = DISPLAYS[name]
     assert tuple(sorted(row.messages)) == types
-    defaults = {option.key: getattr(option, "choices", option.value) for option in row.options}
+    own = tuple(option for option in row.options if not option.key.startswith("Topic/"))
+    defaults = {option.key: getattr(option, "choices", option.value) for option in own}
     assert defaults == options
+    has_quality = bool(types) and name not in {"DepthCloud", "InteractiveMarkers"}
+    assert row.options == (own + QUALITY_OPTIONS if has_quality else own)
     assert traits(row) == properties
     sent = dataclasses.asdict(row.server_options({}))
     assert sent["display"] == name
     assert {field: sent[field] for field in SENT.get(name, {})} == SENT.get(name, {})
-    assert {option.sets for option in row.options if option.sets} == SENT.get(name, {}).keys()
+    assert {option.sets for option in own if option.sets} == SENT.get(name, {}).keys()
     assert all(option.minimum <= option.value <= option.maximum for option in row.options if hasattr(option, "minimum"))
     known = {option.key: getattr(option, "choices", None) for option in row.options}
     for condition in (one for option in row.options if option.needs for one in option.needs.split(" & ")):

@@ -177,6 +177,38 @@ def test_messages_of_later_publishers_are_received_whatever_they_offer(
     assert "this subscription requests" not in caplog.text
 
 
+def test_the_requested_quality_of_service_is_that_of_the_subscription(ros, robot, view, open_tab):
+    tab = open_tab(view(ros, fixed="map"))
+    made = message("geometry_msgs/msg/PoseStamped", "map", robot - SECOND)
+    kept = ros.publisher("/pose", type(made), QoS(transient_local=True))
+    kept.publish(made)
+
+    def requested():  # The doctor subscribes, too.
+        return [one.qos for one in ros.participant.subscribers("/pose") if one.node == "viewer_test"]
+
+    for number, options, expected in (
+        (1, {}, [(True, True)]),
+        (2, {"reliability": "best_effort"}, [(False, False)]),
+        (3, {"durability": "volatile", "depth": 3}, [(True, False)]),
+        (4, {"reliability": "best_effort", "durability": "transient_local"}, [(True, True)]),
+    ):
+        subscribe(tab, "/pose", number, **options)
+        tab.frame_update(lambda _update: requested())
+        assert [(qos.reliable, qos.transient_local) for qos in requested()] == expected, options
+        if expected == [(True, True)]:
+            assert tab.frame_update(lambda update, number=number: (number, 1) in update.displays)
+        tab.send("unsubscribe", id=number)
+        tab.frame_update(lambda _update: not requested())
+
+
+def test_a_display_says_that_a_publisher_offers_less_than_requested(ros, robot, view, open_tab):
+    tab = open_tab(view(ros, fixed="map"))
+    subscribe(tab, "/scan", reliability="reliable")
+    publisher = RepeatingPublisher(ros, tab, "/scan", scan("base", robot - SECOND, [1.0]), QoS(5, reliable=False))
+    status = publisher.until("display", lambda status: status["state"] == "ok")
+    assert status["note"].startswith("a publisher offers only best effort")
+
+
 def test_earlier_messages_are_received_although_another_publisher_keeps_none(ros, view, open_tab):
     marker = find("visualization_msgs/msg/Marker")
 

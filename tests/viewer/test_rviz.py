@@ -9,6 +9,7 @@ import pytest
 import yaml
 
 import coframe
+from coframe.viewer.displays.rows import DISPLAYS
 from coframe.viewer.rviz._defaults import DISPLAY_DEFAULTS, VIEW_DEFAULTS
 from coframe.viewer.rviz.config import RvizConfig
 
@@ -397,6 +398,35 @@ def changed_paths(before, after, path=""):
         ]
         return [one for part in found for one in part]
     return [] if before == after else [path]
+
+
+def test_the_quality_of_service_is_read_unless_it_is_the_default_and_saved():
+    usual = {"Depth": 5, "Durability Policy": "Volatile", "Reliability Policy": "Reliable"}
+    chosen = {"Depth": 20, "Durability Policy": "Transient Local", "Reliability Policy": "Best Effort"}
+    displays = [
+        {"Class": "rviz_default_plugins/LaserScan", "Name": name, "Topic": {**quality, "Value": "/scan"}}
+        for name, quality in (("usual", usual), ("chosen", chosen))
+    ]
+    config = RvizConfig({"Visualization Manager": {"Displays": displays}})
+    shown = config.description()["displays"]
+    requested = [DISPLAYS["LaserScan"].server_options(one["options"]) for one in shown]
+    assert [(one.reliability, one.durability, one.depth) for one in requested] == [
+        ("automatic", "automatic", 10),
+        ("best_effort", "transient_local", 20),
+    ]
+    shown[0]["options"]["Topic"]["Reliability Policy"] = "Best Effort"
+    new = {"class": "Map", "name": "new", "enabled": True, "topic": "/map", "options": {"Topic": {"Depth": 3}}}
+    written = yaml.safe_load(config.merged([*shown, new], {}, {}).text())["Visualization Manager"]["Displays"]
+    assert written[0]["Topic"] == {**usual, "Reliability Policy": "Best Effort", "Value": "/scan"}
+    assert written[1] == displays[1]
+    assert written[2]["Topic"]["Value"] == "/map"
+    assert written[2]["Topic"]["Depth"] == 3
+    assert written[2]["Topic"]["Durability Policy"] == "Transient Local", "RViz would miss a map that is published once"
+    old = RvizConfig({"Visualization Manager": {"Displays": [{"Class": "rviz/LaserScan", "Name": "s", "Topic": "/s"}]}})
+    (scan,) = old.description()["displays"]
+    scan["options"]["Topic"] = {"Value": "/s", "Depth": 3}
+    (written,) = yaml.safe_load(old.merged([scan], {}, {}).text())["Visualization Manager"]["Displays"]
+    assert written["Topic"] == "/s", "RViz 1 has no quality of service"
 
 
 def test_saving_changes_only_what_the_user_changed():

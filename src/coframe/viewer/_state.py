@@ -26,6 +26,7 @@ from coframe.viewer.scene.scene import Scene
 from coframe.viewer.scripting.callbacks import CallbackThread
 from coframe.viewer.scripting.nodes import NodeStore
 from coframe.viewer.scripting.widgets import WidgetStore
+from coframe.viewer.sources.requested_quality import AUTOMATIC, RequestedQuality
 from coframe.viewer.sources.topic_messages import LiveMessages
 from coframe.viewer.tools.publisher import ToolPublisher
 
@@ -106,7 +107,8 @@ class ViewerState:
         self.origin = time.time_ns()
         self.executor = ThreadPoolExecutor(2, "coframe-viewer-work")
         self._tools: ToolPublisher | None = None
-        self._open_topics: dict[str, _SharedMessages] = {}  # Of the source, by topic.
+        # Of the source, by topic and requested quality of service.
+        self._open_topics: dict[tuple[str, RequestedQuality], _SharedMessages] = {}
         self._users: dict[int, _SharedMessages] = {}  # Also of previous sources, by the identity of their messages.
         self._prepared_replays: dict[str, ReplaySettings] = {}
         self._structure_due = self._topics_due = 0.0
@@ -237,20 +239,25 @@ class ViewerState:
         span = self.span
         return None if span is None else (span[0] - self.origin, span[1] - self.origin)
 
-    def open(self, topic: str) -> TopicMessages | None:
+    def open(self, topic: str, quality: RequestedQuality = AUTOMATIC) -> TopicMessages | None:
         """Return the messages on a topic, which all clients share, or None if the topic does not exist.
+
+        Args:
+            topic: The name of the topic.
+            quality: The quality of service to request from publishers.
 
         Raises:
             ViewerError: The name of the topic is not valid.
             WireError: The middleware cannot create the subscription.
         """
         topic = self.source.resolve(topic)
-        shared = self._open_topics.get(topic)
+        key = (topic, quality if self.source.mode == "live" else AUTOMATIC)
+        shared = self._open_topics.get(key)
         if shared is None:
-            messages = self.source.open(topic)
+            messages = self.source.open(*key)
             if messages is None:
                 return None
-            shared = self._open_topics[topic] = self._users[id(messages)] = _SharedMessages(messages)
+            shared = self._open_topics[key] = self._users[id(messages)] = _SharedMessages(messages)
         shared.users += 1
         return shared.messages
 
@@ -260,7 +267,7 @@ class ViewerState:
         shared.users -= 1
         if shared.users == 0:
             del self._users[id(messages)]
-            self._open_topics = {topic: one for topic, one in self._open_topics.items() if one is not shared}
+            self._open_topics = {key: one for key, one in self._open_topics.items() if one is not shared}
             messages.close()
 
     @contextlib.contextmanager

@@ -219,6 +219,10 @@ def messages():
     yield "balls", "PointCloud2", cloud(rings), {"Color Transformer": "RGBF32", "Style": "Spheres", "Size (m)": 0.4}
     yield "nothing", "PointCloud2", cloud(XYZ), {"Color Transformer": "Intensity", "Channel Name": "label"}
     limits = {"Value": False, "Min Value": 0.0, "Max Value": 3.0}
+    level = cloud([*XYZ[:2], ("z", "<f4", [0.5, 0.5, 0.5])])
+    yield "level", "PointCloud2", level, {}
+    yield "level_too", "PointCloud2", level, {}
+    yield "level_chosen", "PointCloud2", level, {"Color Transformer": "AxisColor"}
     yield "height", "PointCloud2", cloud(XYZ), {"Autocompute Value Bounds": limits}
     for encoding, (pixels, _) in IMAGES.items():
         made = image(encoding, pixels)
@@ -413,6 +417,32 @@ def test_clouds_are_colored_by_any_channel(shown):
     assert drawn(shown, "rgbf")["shades"] == ["rgb(255 0 0)", "rgb(0 255 0)", "rgb(0 0 255)"]
     shown.page.until("coframe.displays.nothing.state === 'error'")
     assert "no channel 'label'. Channels: x, y, z" in shown.page.evaluate("coframe.displays.nothing.text")
+
+
+def test_flat_clouds_have_different_colors_unless_the_user_chooses_them(shown):
+    first, second, chosen = (set(drawn(shown, name)["shades"]) for name in ("level", "level_too", "level_chosen"))
+    assert len(first) == len(second) == len(chosen) == 1
+    assert first != second
+    assert chosen == {"rgb(150 250 80)"}, "the middle of the scale"
+
+
+def test_the_quality_of_service_is_chosen_in_the_panel(shown):
+    page, ros = shown.page, shown.everything.ros
+
+    def is_reliable():
+        return [one.qos.reliable for one in ros.participant.subscribers("/imu") if one.node == "everything"]
+
+    drawn(shown, "imu")
+    assert is_reliable() == [True]
+    page.tab("displays")
+    page.click(".card[data-display=imu] .card-title")
+    reliability = page.raw.locator(".card[data-display=imu] select[aria-label=Reliability]")
+    reliability.select_option("Best Effort")
+    page.wait(lambda: is_reliable() == [False], "a subscription with best effort")
+    drawn(shown, "imu")
+    reliability.select_option("System Default")
+    page.wait(lambda: is_reliable() == [True], "a reliable subscription")
+    page.click(".card[data-display=imu] .card-title")
 
 
 @pytest.mark.parametrize("encoding", IMAGES)

@@ -8,10 +8,13 @@ import type { PickedPart } from "../model/picked";
 import type { Hit } from "../scene/picking";
 import { MessageDisplay } from "./display";
 import { cloudColors } from "./cloud_colors";
+import { topicColor } from "./topic_colors";
 
 const SAMPLES = 4096;
 const MAX_SHADES = 64;
 const VIEWPORT = new THREE.Vector4();
+/** Heights that differ less than this have one color; the scale would show their noise. */
+const MIN_HEIGHT_RANGE_M = 1e-3;
 /** Software rendering takes 2.5 microseconds per point, during which the page blocks. */
 const MAX_POINTS_IN_SOFTWARE = 40_000;
 
@@ -42,14 +45,16 @@ export class CloudDisplay extends MessageDisplay<Cloud, CloudClass> {
     if (mode === "rgb" && message.rgba) geometry.setAttribute("rgba", new THREE.BufferAttribute(message.rgba, 4, true));
     if (mode === "scalar" && message.scalar)
       geometry.setAttribute("scalar", new THREE.BufferAttribute(message.scalar, 1));
-    const points = new THREE.Points(geometry, this.material(mode, message));
+    const points = new THREE.Points(geometry, this.material(mode));
+    const fixed = this.fixedRange(mode);
+    if (fixed) rangeOf(points).value.set(...fixed);
+    else if (mode === "scalar") this.setOwnRange(points, ...message.range);
     points.frustumCulled = false;
     return points;
   }
 
   protected override describe(message: Cloud, object: THREE.Object3D): Record<string, unknown> {
-    const { range } = ((object as THREE.Points).material as THREE.ShaderMaterial).uniforms;
-    const colors = (range as THREE.IUniform<THREE.Vector2>).value.toArray();
+    const colors = rangeOf(object).value.toArray();
     const shade = cloudColors(object as THREE.Points, this.context.distinct());
     return {
       points: message.count,
@@ -81,16 +86,31 @@ export class CloudDisplay extends MessageDisplay<Cloud, CloudClass> {
     return transformer !== "FlatColor" && message.scalar ? "scalar" : "flat";
   }
 
-  /** The range of values that the color scale covers. */
-  private range(mode: string, message: Cloud): [number, number] {
+  /** The range of values that the color scale covers, or null if it is that of each message. */
+  private fixedRange(mode: string): [number, number] | null {
     const { options } = this;
     const byIntensity = mode === "scalar" && options.choice("Color Transformer") === "Intensity";
     if (byIntensity && !options.flag("Autocompute Intensity Bounds"))
       return [options.number("Min Intensity"), options.number("Max Intensity")];
-    return message.range;
+    if (mode === "axis" && !options.flag("Autocompute Value Bounds/Value"))
+      return [
+        options.number("Autocompute Value Bounds/Min Value"),
+        options.number("Autocompute Value Bounds/Max Value"),
+      ];
+    return null;
   }
 
-  private material(mode: "rgb" | "scalar" | "axis" | "flat", message: Cloud): THREE.ShaderMaterial {
+  /**
+   * Sets the range of the color scale to that of a message. A cloud with one value has the color of its topic, so that
+   * several flat scans can be told apart, unless the user or a file has chosen what the colors show.
+   */
+  private setOwnRange(object: THREE.Object3D, low: number, high: number, isFlat = low === high): void {
+    const { uniforms } = (object as THREE.Points).material as THREE.ShaderMaterial;
+    (uniforms.plain as THREE.IUniform<boolean>).value = isFlat && !this.options.isSet("Color Transformer");
+    rangeOf(object).value.set(low, high);
+  }
+
+  private material(mode: "rgb" | "scalar" | "axis" | "flat"): THREE.ShaderMaterial {
     const alpha = this.options.number("Alpha");
     const style = this.options.choice("Style");
     const byIntensity = mode === "scalar" && this.options.choice("Color Transformer") === "Intensity";
@@ -111,7 +131,9 @@ export class CloudDisplay extends MessageDisplay<Cloud, CloudClass> {
         alpha: { value: alpha },
         flatColor: { value: srgb(this.options.color("Color")) },
         axis: { value: "XYZ".indexOf(this.options.choice("Axis")) },
-        range: { value: new THREE.Vector2(...this.range(mode, message)) },
+        range: { value: new THREE.Vector2(0, 1) },
+        plain: { value: false },
+        topicColor: { value: srgb(topicColor(this.config.topic ?? "")) },
         low: { value: srgb(this.options.color("Min Color")) },
         high: { value: srgb(this.options.color("Max Color")) },
         size: { value: this.options.number(style === "Points" ? "Size (Pixels)" : "Size (m)") },
@@ -134,23 +156,21 @@ export class CloudDisplay extends MessageDisplay<Cloud, CloudClass> {
   }
 
   protected override onPose(object: THREE.Object3D, message: Cloud): void {
-    if (this.mode(message) !== "axis") return;
-    if (!this.options.flag("Autocompute Value Bounds/Value")) {
-      const low = this.options.number("Autocompute Value Bounds/Min Value");
-      const high = this.options.number("Autocompute Value Bounds/Max Value");
-      const { range } = ((object as THREE.Points).material as THREE.ShaderMaterial).uniforms;
-      (range as THREE.IUniform<THREE.Vector2>).value.set(low, high);
-      return;
-    }
-    if (object.userData.rangeFrame === this.context.model.fixed) return;
+    const mode = this.mode(message);
+    if (mode !== "axis" || this.fixedRange(mode) || object.userData.rangeFrame === this.context.model.fixed) return;
     object.userData.rangeFrame = this.context.model.fixed;
     object.updateMatrixWorld();
     const pose = this.options.flag("Use Fixed Frame") ? object.matrixWorld : new THREE.Matrix4();
-    const axis = "XYZ".indexOf(this.options.choice("Axis"));
-    const material = (object as THREE.Points).material as THREE.ShaderMaterial;
-    const range = material.uniforms.range as THREE.IUniform<THREE.Vector2>;
-    range.value.set(...axisRange(message, pose, axis));
+    const [low, high] = axisRange(message, pose, "XYZ".indexOf(this.options.choice("Axis")));
+    // Points of equal height get the color in the middle of the scale instead of amplified noise.
+    if (high - low > MIN_HEIGHT_RANGE_M) this.setOwnRange(object, low, high);
+    else this.setOwnRange(object, low - 0.5, low + 0.5, true);
   }
+}
+
+function rangeOf(object: THREE.Object3D): THREE.IUniform<THREE.Vector2> {
+  const { uniforms } = (object as THREE.Points).material as THREE.ShaderMaterial;
+  return uniforms.range as THREE.IUniform<THREE.Vector2>;
 }
 
 /** The range of the transformed points along an axis, estimated from a sample. */
@@ -166,15 +186,15 @@ function axisRange(message: Cloud, pose: THREE.Matrix4, axis: number): [number, 
     if (value < low) low = value;
     if (value > high) high = value;
   }
-  // Points of equal height get the color in the middle of the scale instead of amplified noise.
-  return high - low > 1e-3 ? [low, high] : [low - 0.5, low + 0.5];
+  return low <= high ? [low, high] : [0, 1];
 }
 
 const VERTEX = `
   uniform float size, height;
   uniform vec2 range;
   uniform int axis;
-  uniform vec3 flatColor, low, high;
+  uniform bool plain;
+  uniform vec3 flatColor, topicColor, low, high;
   #ifdef BY_RGB
     attribute vec4 rgba;
   #endif
@@ -209,6 +229,7 @@ const VERTEX = `
 
   // The smallest value is red, as in RViz, unless the scale is inverted.
   vec3 paint(float t) {
+    if (plain) return topicColor;
     #ifdef TWO_COLORS
       return mix(low, high, clamp(t, 0.0, 1.0));
     #elif defined(INVERTED)

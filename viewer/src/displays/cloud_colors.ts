@@ -14,6 +14,10 @@ export function cloudColors(cloud: THREE.Points, useDistinctColors: boolean): (i
   const range = value<THREE.Vector2>("range") ?? new THREE.Vector2(0, 1);
   const spread = Math.max(range.y - range.x, 1e-6);
   const [low, high] = [value<THREE.Vector3>("low"), value<THREE.Vector3>("high")];
+  if (value<boolean>("plain")) {
+    const color = css(value<THREE.Vector3>("topicColor")?.toArray() ?? [1, 1, 1]);
+    return () => color;
+  }
   const scaled = (found: number): string => {
     const t = (found - range.x) / spread;
     if (defines && "TWO_COLORS" in defines && low && high)

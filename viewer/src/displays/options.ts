@@ -37,6 +37,12 @@ export class Options<C extends DisplayClass = DisplayClass> {
     return this.colorOf(this.spec(key, "color"));
   }
 
+  /** Whether the user or a file has chosen an option, so that it is not the default. */
+  isSet(key: OptionKey<C, OptionSpec["kind"]>): boolean {
+    const value = this.value(key);
+    return value !== undefined && value !== null && value !== "";
+  }
+
   numberOf(spec: Spec<"number">): number {
     const given = this.value(spec.key);
     const value = Number(given);

@@ -20,6 +20,8 @@ interface Card {
   detail: HTMLElement;
   status: HTMLElement;
   body: HTMLElement | null;
+  /** Hides the options that have no effect. */
+  hideOptions: () => void;
 }
 
 const MAX_OMITTED = 40;
@@ -158,7 +160,7 @@ export class DisplaysPanel {
     );
     const status = h("div", { class: "status", role: "status", hidden: true });
     const element = h("div", { class: "card", data: { display: config.name } }, head, status);
-    const card: Card = { display, element, head, name, box, detail, status, body: null };
+    const card: Card = { display, element, head, name, box, detail, status, body: null, hideOptions: () => {} };
     this.cardsById.set(display.id, card);
     if (isOpen) this.toggleOptions(card, title);
     return card;
@@ -169,14 +171,16 @@ export class DisplaysPanel {
       card.body.remove();
       card.body = null;
     } else {
-      card.body = this.options(card.display);
+      card.body = this.options(card);
       card.element.append(card.body);
     }
     title.setAttribute("aria-expanded", String(card.body !== null));
   }
 
   private updateCards(): void {
-    for (const { display, element, name, box, head, detail, status } of this.cardsById.values()) {
+    for (const card of this.cardsById.values()) {
+      const { display, element, name, box, head, detail, status } = card;
+      if (card.body) card.hideOptions();
       setText(name, shorten(display.config.name, 60));
       element.dataset.display = display.config.name;
       element.classList.toggle("in-disabled-group", !this.displays.groupsEnabled(display.config.group));
@@ -194,17 +198,21 @@ export class DisplaysPanel {
     }
   }
 
-  private options(display: Display): HTMLElement {
+  private options(card: Card): HTMLElement {
+    const { display } = card;
     const body = h("div", { class: "card-body" }, this.ownFields(display));
     if (display instanceof MessageDisplay) body.append(this.topicField(display));
-    const specs: readonly OptionSpec[] = DISPLAYS[display.kind].options;
+    const specs: readonly OptionSpec[] = DISPLAYS[card.display.kind].options;
     const fields = specs.map((spec) => ({ spec, element: this.field(display, spec) }));
-    const hide = (): void => {
-      for (const { spec, element } of fields) element.hidden = !display.options.hasEffect(spec);
+    card.hideOptions = (): void => {
+      // Only publishers have a quality of service.
+      const live = this.model.hello?.mode === "live";
+      for (const { spec, element } of fields)
+        element.hidden = !display.options.hasEffect(spec) || (!live && isQuality(spec));
     };
-    hide();
+    card.hideOptions();
     body.append(...fields.map(({ element }) => element));
-    body.addEventListener("change", hide);
+    body.addEventListener("change", card.hideOptions);
     if (display instanceof MarkersDisplay) body.append(this.namespaces(display));
     return body;
   }
@@ -272,17 +280,22 @@ export class DisplaysPanel {
     return list;
   }
 
+  /** The topics that the display can show. They are listed again when the list opens, because others may appear. */
   private topicField(display: Display): HTMLElement {
     const types: readonly string[] = DISPLAYS[display.kind].types;
-    const available = this.model.topics.filter(({ type }) => types.includes(type)).map(({ topic }) => topic);
-    const current = display.config.topic ?? "";
-    const names = [...new Set([current, ...available])];
     const element = h("select", { aria: { label: "Topic" } });
-    fillSelect(
-      element,
-      names.map((name) => [name, name || "Choose a topic…"] as const),
-      current,
-    );
+    const fill = (): void => {
+      const available = this.model.topics.filter(({ type }) => types.includes(type)).map(({ topic }) => topic);
+      const current = display.config.topic ?? "";
+      const names = [...new Set([current, ...available])];
+      fillSelect(
+        element,
+        names.map((name) => [name, name || "Choose a topic…"] as const),
+        current,
+      );
+    };
+    fill();
+    element.addEventListener("focus", fill);
     element.addEventListener("change", () => {
       this.displays.setEnabled(display, false);
       display.config.topic = element.value || null;
@@ -343,6 +356,10 @@ export class DisplaysPanel {
       }
     }
   }
+}
+
+function isQuality({ sets }: OptionSpec): boolean {
+  return sets === "reliability" || sets === "durability" || sets === "depth";
 }
 
 function field(label: string, control: HTMLElement): HTMLElement {

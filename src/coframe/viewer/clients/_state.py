@@ -20,6 +20,7 @@ from coframe.viewer.displays.resources import Resources
 from coframe.viewer.displays.rows import row_of
 from coframe.viewer.protocol.requests import BadRequestError
 from coframe.viewer.protocol.schema import shorten
+from coframe.viewer.sources.requested_quality import RequestedQuality
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -207,7 +208,9 @@ class ClientState:
 
     def _open_all(self, number: int, subscription: Subscription) -> None:
         viewer = self.viewer
-        messages = viewer.open(subscription.topic)
+        options = subscription.options
+        quality = RequestedQuality(options.reliability, options.durability, options.depth)
+        messages = viewer.open(subscription.topic, quality)
         if messages is None:
             return
         row = row_of(messages.type, subscription.options)

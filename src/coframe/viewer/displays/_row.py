@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from coframe.viewer.displays._drawing import FIXED_FRAME
-from coframe.viewer.protocol.client_messages import DisplayOptions
+from coframe.viewer.protocol.client_messages import MAX_QUEUE_DEPTH, DisplayOptions
 from coframe.viewer.protocol.schema import record
 
 if TYPE_CHECKING:
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "FIXED_FRAME",
+    "QUALITY_OPTIONS",
     "ChoiceOption",
     "ColorOption",
     "DisplayRow",
@@ -169,6 +170,28 @@ def _set_at(values: dict[str, Any], path: str, value: Any) -> None:
 Option: TypeAlias = NumberOption | FlagOption | ColorOption | ChoiceOption | TextOption
 
 
+QUALITY_OPTIONS: tuple[Option, ...] = (
+    ChoiceOption(
+        "Topic/Reliability Policy",
+        "System Default",
+        choices=("System Default", "Reliable", "Best Effort"),
+        meanings=("automatic", "reliable", "best_effort"),
+        label="Reliability",
+        sets="reliability",
+    ),
+    ChoiceOption(
+        "Topic/Durability Policy",
+        "System Default",
+        choices=("System Default", "Volatile", "Transient Local"),
+        meanings=("automatic", "volatile", "transient_local"),
+        label="Durability",
+        sets="durability",
+    ),
+    NumberOption("Topic/Depth", 10.0, 1.0, float(MAX_QUEUE_DEPTH), 1.0, label="Queue depth", sets="depth"),
+)
+"""The quality of service of a display, which RViz writes below its topic. System Default follows the publishers."""
+
+
 def _no_topics(_topic: str, _options: DisplayOptions) -> tuple[str, ...]:
     return ()
 
@@ -190,6 +213,7 @@ class DisplayRow:
         has_surfaces: Whether the page's tools find points on it.
         projected: Whether its lines and meshes can be drawn above images.
         other_topics: Returns the further topics that a display of a topic needs, from the topic and its options.
+        has_quality: Whether RViz has options for the quality of service of its topic.
         draws_without_messages: Whether it draws before the first message of its topic.
         guide: What the display shows, for the table in the guide.
         lacks: The properties of RViz's display that it lacks, with the reason; "" if there are none.
@@ -207,6 +231,7 @@ class DisplayRow:
     has_surfaces: bool = True
     projected: bool = False
     other_topics: Callable[[str, DisplayOptions], tuple[str, ...]] = _no_topics
+    has_quality: bool = True
     draws_without_messages: bool = False
     guide: str = ""
     lacks: str = ""

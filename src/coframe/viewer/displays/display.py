@@ -322,11 +322,11 @@ class Display:
         self._layer_bytes = 0
 
     def _omission_note(self, layer: _Layer) -> str:
-        """Return what the display omits."""
+        """Return what the display omits, or how its subscription differs from what the user requests."""
         if self._layer_bytes + layer.size > MAX_LAYER_BYTES and len(self._layers) > 1:
             shown = (self._layers[-1].time - self._layers[0].time) / SECOND
             return f"the last {shown:.0f} s, because the drawings take at most {MAX_LAYER_BYTES >> 20} MiB"
-        return next((entry.drawing.note for entry in layer.entries if entry.drawing.note), "")
+        return next((entry.drawing.note for entry in layer.entries if entry.drawing.note), self.messages.shortfall)
 
 
 def _render(renderer: Renderer, message: StampedMessage, now: int, at: int) -> _Rendered:

@@ -5,13 +5,14 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
 from coframe.viewer.displays import kinds
 from coframe.viewer.displays._drawing import CannotDrawError
 from coframe.viewer.displays._renderers import draw_each_message
-from coframe.viewer.displays._row import DisplayRow
+from coframe.viewer.displays._row import QUALITY_OPTIONS, DisplayRow
 from coframe.viewer.protocol.server_messages import DisplayTopic
 
 if TYPE_CHECKING:
@@ -32,7 +33,10 @@ MAX_AUTOMATIC_DISPLAYS = 12
 def _rows() -> Iterator[DisplayRow]:
     for module in pkgutil.iter_modules(kinds.__path__):
         content = vars(importlib.import_module(f"{kinds.__name__}.{module.name}"))
-        yield from (value for value in content.values() if isinstance(value, DisplayRow))
+        for value in content.values():
+            if isinstance(value, DisplayRow):
+                has_quality = value.has_quality and value.messages
+                yield replace(value, options=(*value.options, *QUALITY_OPTIONS)) if has_quality else value
 
 
 DISPLAYS: dict[str, DisplayRow] = {row.name: row for row in sorted(_rows(), key=lambda row: row.name)}

@@ -15,6 +15,7 @@ from coframe.messages import deserialize, find
 from coframe.time import SECOND
 from coframe.viewer.panels.own_messages import LEVELS, MAX_LINES, MAX_TEXT, LogLine, OwnMessages
 from coframe.viewer.sources.adaptive_subscription import AdaptiveSubscription
+from coframe.viewer.sources.requested_quality import RequestedQuality
 
 if TYPE_CHECKING:
     from concurrent.futures import Future
@@ -130,7 +131,7 @@ class Log:
             return participant.subscription(connection.node, ROSOUT, find(_TYPE), qos, adapts=True)
 
         try:
-            self._subscription = AdaptiveSubscription(offers, subscribe, depth=_DEPTH)
+            self._subscription = AdaptiveSubscription(offers, subscribe, RequestedQuality(depth=_DEPTH))
             self.text = ""
         except WireError as error:
             self.text = error_text(error)

@@ -16,11 +16,13 @@ from coframe.viewer.protocol.common import (
     CompletionKind,
     ControlKind,
     ControlStep,
+    Durability,
     Id,
     JsonObject,
     Nanoseconds,
     Position,
     Radians,
+    Reliability,
     RvizDisplay,
     RvizGroup,
     RvizTool,
@@ -34,6 +36,7 @@ MAX_KEPT_MESSAGES = 1000
 MAX_POINTS = 4_000_000
 MAX_DECAY = 3600.0
 """Seconds."""
+MAX_QUEUE_DEPTH = 1000
 MAX_CURVE_POINTS = 20_000
 MAX_TABLE_ROWS = 500
 MAX_IMAGE_PIXELS = 1 << 25
@@ -59,6 +62,9 @@ class DisplayOptions:
         second_topic: Another topic that the display needs: the updates of a map, or the colors of a depth image.
         frame: The frame in which positions without a frame are drawn; "" is the fixed frame.
         use_stamp: Whether a map is placed at the stamp of its message, and not at the displayed time.
+        reliability: The reliability to request from publishers; "automatic" follows what they offer.
+        durability: The durability to request from publishers; "automatic" follows what they offer.
+        depth: The number of messages that wait until they are taken.
     """
 
     display: str = ""
@@ -75,6 +81,9 @@ class DisplayOptions:
     second_topic: str = ""
     frame: str = ""
     use_stamp: bool = False
+    reliability: Reliability = "automatic"
+    durability: Durability = "automatic"
+    depth: Annotated[int, Clamp(1, MAX_QUEUE_DEPTH)] = 10
 
 
 @dataclass(frozen=True)

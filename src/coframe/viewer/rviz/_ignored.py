@@ -17,7 +17,7 @@ __all__ = ["ignored_options", "ignored_panels", "ignored_tools", "ignored_view_o
 
 # What the page or the server reads without a row of options; the first part of a path decides.
 _KEYS_READ_ELSEWHERE = frozenset({*OWN_KEYS, *TOPIC_KEYS, "Value", "Namespaces", "Frames", "Frame Timeout"})
-# How RViz shows its own tree and receives messages, which has no equivalent here. The viewer chooses the QoS itself.
+# How RViz shows its own tree and receives messages, which has no equivalent here.
 _KEYS_WITHOUT_EFFECT = frozenset(
     {
         "Tree",

@@ -21,6 +21,7 @@ __all__ = [
     "to_json",
     "topic_of",
     "update",
+    "without_default_quality",
 ]
 
 OWN_KEYS = ("Class", "Name", "Enabled")
@@ -32,6 +33,9 @@ TOPIC_KEYS = ("Topic", "Description Topic", "Marker Topic", "Image Topic", "Dept
 """The keys under which RViz 2 and RViz 1 write the topic of a display."""
 
 _UPDATE = "/update"
+# RViz writes these to each topic, so that they are no choice of the user.
+_DEFAULT_QUALITY = {"Depth": 5, "Durability Policy": "Volatile", "Reliability Policy": "Reliable"}
+_QUALITY_OF_MAPS = {**_DEFAULT_QUALITY, "Durability Policy": "Transient Local"}  # Maps are published once.
 _KEYS_OF_CLASSES = {
     "DepthCloud": "Depth Map Topic",
     "InteractiveMarkers": NAMESPACE_KEY,
@@ -58,16 +62,26 @@ def set_topic(display: dict[str, Any], topic: str, package: str) -> None:
     """Set the topic of a display or tool; that of a new one has the format of RViz 2 or, for "rviz", of RViz 1."""
     key = next((key for key in TOPIC_KEYS if key in display), None)
     if key is None:
-        key = _KEYS_OF_CLASSES.get(plain_class(display.get("Class")), "Topic")
-        qos = {"Depth": 5, "Durability Policy": "Volatile", "History Policy": "Keep Last"}
+        name = plain_class(display.get("Class"))
+        key = _KEYS_OF_CLASSES.get(name, "Topic")
+        quality = _QUALITY_OF_MAPS if name == "Map" else _DEFAULT_QUALITY
         is_text = package == "rviz" or key == NAMESPACE_KEY
-        display[key] = "" if is_text else {**qos, "Reliability Policy": "Reliable"}
+        display[key] = "" if is_text else {**quality, "History Policy": "Keep Last"}
     if key == NAMESPACE_KEY:
         topic = topic.removesuffix(_UPDATE)
     if isinstance(display[key], dict):
         display[key]["Value"] = topic
     else:
         display[key] = topic
+
+
+def without_default_quality(options: dict[str, Any]) -> dict[str, Any]:
+    """Return options in which the quality of service contains only what differs from RViz's defaults."""
+    topic = options.get("Topic")
+    if not isinstance(topic, dict):
+        return options
+    kept = {key: value for key, value in topic.items() if key not in _DEFAULT_QUALITY or value != _DEFAULT_QUALITY[key]}
+    return {**options, "Topic": kept}
 
 
 def is_number(value: Any) -> TypeGuard[float]:

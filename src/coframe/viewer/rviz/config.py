@@ -30,6 +30,7 @@ from coframe.viewer.rviz._values import (
     to_json,
     topic_of,
     update,
+    without_default_quality,
 )
 from coframe.viewer.sources.topic_names import resolved_topic
 
@@ -361,7 +362,7 @@ def _describe(found: _Found) -> RvizDisplay:
         "name": found.name,
         "enabled": found.is_checked and found.in_enabled_groups,
         "topic": _resolve(topic_of(display)),
-        "options": DISPLAYS[found.plain_class].with_usual_keys(options),
+        "options": DISPLAYS[found.plain_class].with_usual_keys(without_default_quality(options)),
         "checked": found.is_checked,
         "source": found.source,
         "group": found.group,
@@ -412,10 +413,17 @@ def _match(shown: RvizDisplay, by_source: Mapping[str, _Found], remaining: Seque
 def _new_display(shown: RvizDisplay, package: str) -> dict[str, Any]:
     display: dict[str, Any] = {"Class": f"{package}/{shown['class']}", "Name": shown["name"] or shown["class"]}
     display["Enabled"] = shown.get("checked", shown["enabled"])
-    update(display, DISPLAYS[shown["class"]].with_usual_keys(shown["options"]))
     if shown["topic"]:
         set_topic(display, shown["topic"], package)
+    update(display, DISPLAYS[shown["class"]].with_usual_keys(_options_of(shown, package)))
+    if shown["topic"]:  # Also in place of an earlier topic in the options.
+        set_topic(display, shown["topic"], package)
     return display
+
+
+def _options_of(shown: RvizDisplay, package: str) -> dict[str, Any]:
+    """Return the options of a display; RViz 1 has no quality of service below the topic."""
+    return {key: value for key, value in shown["options"].items() if package != "rviz" or key != "Topic"}
 
 
 def _merge_display(found: _Found, shown: RvizDisplay, package: str) -> None:
@@ -429,7 +437,7 @@ def _merge_display(found: _Found, shown: RvizDisplay, package: str) -> None:
     if shown["name"] and shown["name"] != before["name"]:
         display["Name"] = shown["name"]
     row = DISPLAYS[found.plain_class]
-    update(display, changed_values(before["options"], row.with_usual_keys(shown["options"])))
+    update(display, changed_values(before["options"], row.with_usual_keys(_options_of(shown, package))))
     if shown["topic"] and shown["topic"] != before["topic"]:
         set_topic(display, shown["topic"], package)
 

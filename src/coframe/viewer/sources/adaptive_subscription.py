@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A subscription that receives from every publisher of a topic, regardless of the offered QoS.
 
+It requests as much as the publishers offer, unless the user requests less: best effort, or volatile.
+
 A subscription is not matched if it requests more than a publisher offers, so reliable delivery is requested only if
 all publishers offer it. For durability, this is not enough: a subscription that requests less does not receive earlier
 messages. Publishers that keep their last messages (only reliable ones do) therefore get a separate subscription,
@@ -14,6 +16,7 @@ import threading
 from typing import TYPE_CHECKING
 
 from coframe.errors import WireError
+from coframe.viewer.sources.requested_quality import AUTOMATIC, RequestedQuality
 from coframe.wire.qos import QoS
 
 if TYPE_CHECKING:
@@ -23,8 +26,6 @@ if TYPE_CHECKING:
 
 __all__ = ["AdaptiveSubscription"]
 
-_DEPTH = 10
-
 
 class AdaptiveSubscription:
     """A subscription to all publishers of a topic. Thread-safe.
@@ -32,22 +33,26 @@ class AdaptiveSubscription:
     Args:
         offers: Returns what the publishers of the topic currently offer.
         subscribe: Subscribe to the topic with a quality of service.
-        depth: The number of messages that are kept until they are taken.
+        quality: What the user requests.
 
     Raises:
         WireError: The middleware cannot create the subscription.
     """
 
     def __init__(
-        self, offers: Callable[[], Iterable[QoS]], subscribe: Callable[[QoS], Subscription], depth: int = _DEPTH
+        self,
+        offers: Callable[[], Iterable[QoS]],
+        subscribe: Callable[[QoS], Subscription],
+        quality: RequestedQuality = AUTOMATIC,
     ) -> None:
-        self._depth = depth
+        self._quality = quality
         self._offers = offers
         self._subscribe = subscribe
         self._open: dict[bool, Subscription] = {}  # Keyed by whether it requests earlier messages.
         self._remaining_samples: list[Sample] = []  # Samples of a replaced subscription.
         self._lock = threading.Lock()
         self._closed = False
+        self._shortfall = ""
         self._follow()
 
     def follow(self) -> None:
@@ -70,6 +75,11 @@ class AdaptiveSubscription:
             return [*left, *self._take(transient_local=True), *self._take(transient_local=False)]
 
     @property
+    def shortfall(self) -> str:
+        """What the user requests and a publisher does not offer, or ""; its messages are received nevertheless."""
+        return self._shortfall
+
+    @property
     def guids(self) -> set[bytes]:
         """The identifiers of its endpoints."""
         return {subscription.guid for subscription in list(self._open.values())}
@@ -82,13 +92,18 @@ class AdaptiveSubscription:
                 subscription.close()
 
     def _follow(self) -> None:
-        offers = list(self._offers())
-        keeping = [offer for offer in offers if offer.reliable and offer.transient_local]
-        others = [offer for offer in offers if not (offer.reliable and offer.transient_local)]
-        if keeping:
-            self._request(QoS(self._depth, transient_local=True))
+        quality, offers = self._quality, list(self._offers())
+
+        def keeps(offer: QoS) -> bool:
+            return quality.wants_earlier_messages and offer.reliable and offer.transient_local
+
+        others = [offer for offer in offers if not keeps(offer)]
+        if len(others) < len(offers):
+            self._request(QoS(quality.depth, transient_local=True))
         if others:
-            self._request(QoS(self._depth, reliable=all(offer.reliable for offer in others)))
+            reliable = quality.reliability != "best_effort" and all(offer.reliable for offer in others)
+            self._request(QoS(quality.depth, reliable=reliable))
+        self._shortfall = _shortfall(quality, offers)
 
     def _request(self, request: QoS) -> None:
         previous = self._open.get(request.transient_local)
@@ -110,3 +125,12 @@ class AdaptiveSubscription:
             return samples
         received_there = other.matched_handles()
         return [sample for sample in samples if sample.writer not in received_there]
+
+
+def _shortfall(quality: RequestedQuality, offers: Iterable[QoS]) -> str:
+    offers = list(offers)
+    if quality.reliability == "reliable" and not all(offer.reliable for offer in offers):
+        return "a publisher offers only best effort: RViz would receive nothing from it with this reliability"
+    if quality.durability == "transient_local" and not all(offer.transient_local for offer in offers):
+        return "a publisher offers only volatile: RViz would receive nothing from it with this durability"
+    return ""

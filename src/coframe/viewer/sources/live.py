@@ -12,6 +12,7 @@ from coframe.time import MINUTE, SECOND
 from coframe.viewer.sources._sim_time import SimTime
 from coframe.viewer.sources._time_jumps import TransformStamps
 from coframe.viewer.sources.adaptive_subscription import AdaptiveSubscription
+from coframe.viewer.sources.requested_quality import AUTOMATIC, RequestedQuality
 from coframe.viewer.sources.topic_messages import LiveMessages
 from coframe.viewer.sources.topic_names import NodeName, resolve_topic
 
@@ -72,7 +73,7 @@ class LiveSource:
         """Return the full name of a topic."""
         return resolve_topic(topic, self.node)
 
-    def open(self, topic: str) -> LiveMessages | None:
+    def open(self, topic: str, quality: RequestedQuality = AUTOMATIC) -> LiveMessages | None:
         """Subscribe to a topic so that messages of all its publishers are received."""
         participant = self._connection.participant
         types = (one.ros_type for one in participant.publishers(topic))
@@ -87,7 +88,7 @@ class LiveSource:
         def subscribe(qos: QoS) -> Subscription:
             return participant.subscription(self._connection.node, topic, message_class, qos, adapts=True)
 
-        subscription = AdaptiveSubscription(offers, subscribe)
+        subscription = AdaptiveSubscription(offers, subscribe, quality)
         self._subscriptions.add(subscription)
         keep = self.buffer.cache_ns
         keep = keep if keep >= 0 else _KEEP_IF_UNLIMITED

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from coframe.errors import DecodeError, ViewerError
+from coframe.viewer.sources.requested_quality import AUTOMATIC, RequestedQuality
 from coframe.viewer.sources.source import WithoutClock
 from coframe.viewer.sources.topic_messages import StampedMessage
 from coframe.viewer.sources.topic_names import VIEWER_NODE, resolve_topic
@@ -59,7 +60,7 @@ class RecordedSource(WithoutClock):
         """Return the full name of a topic; recorded names are used as they are, whether ROS 2 allows them or not."""
         return topic if topic in self._recording.topics else resolve_topic(topic, self.node)
 
-    def open(self, topic: str) -> RecordedMessages | None:
+    def open(self, topic: str, _quality: RequestedQuality = AUTOMATIC) -> RecordedMessages | None:
         """Return the messages on a topic, or None if it was not recorded."""
         if topic not in self._recording.topics:
             return None
@@ -136,6 +137,11 @@ class RecordedMessages:
     def times(self) -> NDArray[np.int64]:
         """Return the positions of all messages on the timeline, in order."""
         return self._times
+
+    @property
+    def shortfall(self) -> str:
+        """Return "": a recording has no publishers."""
+        return ""
 
     def close(self) -> None:
         """Do nothing. The recording stays open."""

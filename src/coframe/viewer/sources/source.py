@@ -6,6 +6,7 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING, Literal, Protocol
 
+from coframe.viewer.sources.requested_quality import AUTOMATIC, RequestedQuality
 from coframe.viewer.sources.topic_names import VIEWER_NODE, NodeName, resolve_topic
 
 if TYPE_CHECKING:
@@ -54,11 +55,12 @@ class ViewerSource(Protocol):
             ViewerError: The name is not valid.
         """
 
-    def open(self, topic: str) -> TopicMessages | None:
+    def open(self, topic: str, quality: RequestedQuality = AUTOMATIC) -> TopicMessages | None:
         """Return the messages on a topic, which the caller closes, or None if the topic does not exist.
 
         Args:
             topic: The full name of the topic.
+            quality: The quality of service to request from publishers; without effect if there are none.
 
         Raises:
             WireError: The middleware cannot create the subscription.
@@ -149,7 +151,7 @@ class BufferSource(WithoutClock):
         """Return the full name of a topic."""
         return resolve_topic(topic, self.node)
 
-    def open(self, _topic: str) -> TopicMessages | None:
+    def open(self, _topic: str, _quality: RequestedQuality = AUTOMATIC) -> TopicMessages | None:
         """Return None: a buffer has no messages."""
         return None
 

@@ -61,6 +61,10 @@ class TopicMessages(Protocol):
     def times(self) -> NDArray[np.int64]:
         """Return the positions of all messages on the timeline, in order."""
 
+    @property
+    def shortfall(self) -> str:
+        """What the user requests and a publisher does not offer, or ""."""
+
     def close(self) -> None:
         """Release the resources of the topic."""
 
@@ -153,6 +157,11 @@ class LiveMessages:
         self._take()
         with self._lock:
             return np.array([stored.time for stored in self._stored_messages], np.int64)
+
+    @property
+    def shortfall(self) -> str:
+        """What the user requests and a publisher does not offer, or ""."""
+        return self._subscription.shortfall
 
     def close(self) -> None:
         """Unsubscribe from the topic."""

@@ -96,6 +96,7 @@ def _other_topics(topic: str, options: DisplayOptions) -> tuple[str, ...]:
 
 DEPTH_CLOUD = DisplayRow(
     name="DepthCloud",
+    has_quality=False,
     messages={"sensor_msgs/msg/CompressedImage": DepthCloudRenderer, "sensor_msgs/msg/Image": DepthCloudRenderer},
     options=(
         TextOption("Color Image Topic", "", sets="second_topic"),

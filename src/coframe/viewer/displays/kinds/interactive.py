@@ -210,6 +210,7 @@ def _is(one: object, other: object) -> bool:
 
 INTERACTIVE_MARKERS = DisplayRow(
     name="InteractiveMarkers",
+    has_quality=False,
     messages={
         "visualization_msgs/msg/InteractiveMarkerInit": InteractiveRenderer,
         "visualization_msgs/msg/InteractiveMarkerUpdate": InteractiveRenderer,
