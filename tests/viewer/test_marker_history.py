@@ -22,6 +22,8 @@ MARKER = "visualization_msgs/msg/Marker"
 class Messages:
     """The messages of a recorded topic."""
 
+    shortfall = ""
+
     def __init__(self, made, times):
         self.type = made[0].ROS_TYPE
         self.stored = [
@@ -126,7 +128,9 @@ class Fixed:
 def layers_after(monkeypatch, count, size, **options):
     monkeypatch.setattr(display, "make_renderer", lambda *_arguments: Fixed(size))
     stored = [StampedMessage(key + 1, BEGIN + key * SECOND // 10, lambda: None) for key in range(count)]
-    messages = SimpleNamespace(type="", frame=lambda name: name, pending=lambda: False, at=lambda _time: stored[at])
+    messages = SimpleNamespace(
+        type="", shortfall="", frame=lambda name: name, pending=lambda: False, at=lambda _time: stored[at]
+    )
     shown = display.Display(1, messages, Options(**options), Resources(), ImmediateExecutor())
     buffer = coframe.Buffer(None)
     buffer.set("map", "base", coframe.Transform(), BEGIN)

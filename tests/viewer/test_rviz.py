@@ -215,10 +215,10 @@ def test_an_invalid_rviz_file_is_rejected_with_a_message(text, says):
 
 def test_a_file_with_10_000_displays_is_read_soon():
     display = "    - {Class: rviz_default_plugins/Axes, Name: a, Enabled: true}\n"
-    started = time.monotonic()
+    started = time.process_time()
     config = RvizConfig.parse(f"Visualization Manager:\n  Displays:\n{display * 10_000}")
     assert len(config.description()["displays"]) == 10_000
-    assert time.monotonic() - started < 10
+    assert time.process_time() - started < 10
 
 
 def test_aliases_become_copies():

@@ -95,3 +95,32 @@ def test_displays_are_chosen_added_renamed_duplicated_and_ordered(page):
     assert "front 2" in [one["Name"] for one in displays]
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
     assert page.evaluate("document.querySelector('.tabs').scrollWidth <= document.querySelector('.tabs').clientWidth")
+
+
+def test_the_quality_of_service_and_later_topics_are_chosen_in_the_panel(domain_id, view, open_page):
+    pytest.importorskip("dds_library", reason="topics need DDS")
+    pose = find("geometry_msgs/msg/PoseStamped")
+    with coframe.connect("quality", domain=domain_id) as ros:
+        ros.buffer.set("map", "base", coframe.Transform(), static=True)
+        ros.publisher("/pose", pose)
+        page = open_page(view(ros, fixed="map").url).drawn()
+
+        def is_reliable():
+            return [one.qos.reliable for one in ros.participant.subscribers("/pose") if one.node == "quality"]
+
+        page.until("Object.values(coframe.displays).some((one) => one.topic === '/pose')")
+        page.wait(lambda: is_reliable() == [True], "a reliable subscription, as the publisher offers")
+        page.tab("displays")
+        page.click(".card[data-display=Pose] .card-title")
+        reliability = page.raw.locator(".card[data-display=Pose] select[aria-label=Reliability]")
+        reliability.select_option("Best Effort")
+        page.wait(lambda: is_reliable() == [False], "a subscription with best effort")
+        ros.publisher("/later", pose)
+        topic = page.raw.locator(".card[data-display=Pose] select[aria-label=Topic]")
+
+        def offered():
+            topic.focus()
+            topic.blur()
+            return "/later" in topic.locator("option").all_inner_texts()
+
+        page.wait(offered, "the later topic")

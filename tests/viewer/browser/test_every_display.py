@@ -186,6 +186,12 @@ def messages():
         ),
         {},
     )
+    stamped = make("geometry_msgs/msg/PoseStamped", pose=pose(1.0))
+    path = make("nav_msgs/msg/Path", "turned", poses=[stamped, make("geometry_msgs/msg/PoseStamped", pose=pose(2.0))])
+    arrows = {"Pose Style": "Arrows", "Shaft Length": 0.5, "Head Length": 0.25, "Head Diameter": 0.2}
+    yield "path", "Path", path, {"Offset": {"X": 0.0, "Y": 0.0, "Z": 3.0}, **arrows}
+    poses = make("geometry_msgs/msg/PoseArray", "base", poses=[pose(1.0)])
+    yield "flat_arrows", "PoseArray", poses, {"Shape": "Arrow (Flat)", "Arrow Length": 2.0}
     for name, value in SENSORS.items():
         made = make(f"sensor_msgs/msg/{name}", "base")
         setattr(made, FIELDS.get(name, name.lower()), value)
@@ -329,6 +335,7 @@ class Everything:
     def _run(self):
         ros = self.ros
         ros.send_static("map", "camera", OPTICAL)
+        ros.send_static("map", "turned", coframe.Transform.from_rpy([0.0, 0.0, 0.0], [np.pi, 0.0, np.pi / 2]))
         count = 0
         while not self.ended.wait(PERIOD):
             now = time.time_ns()
@@ -382,6 +389,15 @@ def test_polygons_points_and_vectors(shown):
     assert imu["parts"] == 2, "axes and an acceleration"
 
 
+def test_paths_and_arrays_of_poses_have_the_options_of_rviz(shown):
+    path = drawn(shown, "path")
+    low, high = np.array([path["min"], path["max"]])
+    np.testing.assert_allclose([low[1], high[1], (low[2] + high[2]) / 2], [1.0, 2.75, 3.0], atol=1e-3)
+    np.testing.assert_allclose([low[2], high[2]], [2.9, 3.1], atol=1e-2, err_msg="the offset is in the fixed frame")
+    flat = drawn(shown, "flat_arrows")
+    np.testing.assert_allclose([flat["min"], flat["max"]], [[11, -0.24, 0], [13, 0.24, 0]], atol=1e-3)
+
+
 def test_cells_and_voxels(shown):
     cells = drawn(shown, "cells")
     assert cells["counts"] == [2]
@@ -424,25 +440,6 @@ def test_flat_clouds_have_different_colors_unless_the_user_chooses_them(shown):
     assert len(first) == len(second) == len(chosen) == 1
     assert first != second
     assert chosen == {"rgb(150 250 80)"}, "the middle of the scale"
-
-
-def test_the_quality_of_service_is_chosen_in_the_panel(shown):
-    page, ros = shown.page, shown.everything.ros
-
-    def is_reliable():
-        return [one.qos.reliable for one in ros.participant.subscribers("/imu") if one.node == "everything"]
-
-    drawn(shown, "imu")
-    assert is_reliable() == [True]
-    page.tab("displays")
-    page.click(".card[data-display=imu] .card-title")
-    reliability = page.raw.locator(".card[data-display=imu] select[aria-label=Reliability]")
-    reliability.select_option("Best Effort")
-    page.wait(lambda: is_reliable() == [False], "a subscription with best effort")
-    drawn(shown, "imu")
-    reliability.select_option("System Default")
-    page.wait(lambda: is_reliable() == [True], "a reliable subscription")
-    page.click(".card[data-display=imu] .card-title")
 
 
 @pytest.mark.parametrize("encoding", IMAGES)

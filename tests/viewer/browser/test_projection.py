@@ -16,6 +16,14 @@ Visualization Manager:
   Displays:
     - {Class: rviz_default_plugins/TF, Enabled: true, Name: TF}
     - {Class: rviz_default_plugins/Camera, Enabled: true, Name: Image, Topic: {Value: /cam/image_raw}, Width: 640}
+    - Class: rviz_default_plugins/Camera
+      Enabled: true
+      Name: Other
+      Topic: {Value: /cam/image_raw}
+      Image Rendering: overlay
+      Overlay Alpha: 0.25
+      Zoom Factor: 2
+      Visibility: {Cloud: false, Marker: true, TF: {Value: false}, Value: true}
     - {Class: rviz_default_plugins/PointCloud2, Enabled: true, Name: Cloud, Topic: {Value: /cloud}}
     - {Class: rviz_default_plugins/Marker, Enabled: true, Name: Marker, Topic: {Value: /marker}}
   Global Options: {Fixed Frame: map}
@@ -90,6 +98,10 @@ def test_the_scene_is_projected_as_by_opencv(graph, view, open_page, tmp_path):
     assert np.mean(np.array(drawn) > 0) > 0.95
     empty = page.evaluate("document.querySelector('.projection').getContext('2d').getImageData(2, 2, 1, 1).data[3]")
     assert empty == 0
+    other = page.evaluate("coframe.displays.Other.messages[0]")
+    assert (other["projected"], other["zoom"]) == ({"frames": {}, "points": 0, "edges": 12}, 2), "Visibility"
+    opacity = "(name) => document.querySelectorAll(`#images figure ${name}`)[1].style.opacity"
+    assert [page.evaluate(opacity, name) for name in ("canvas[role=img]", ".projection")] == ["0.25", "0.75"]
     by_topic["/cam/camera_info"].distortion_model = "magic"
     page.wait(
         lambda: (projected(), "'magic' with 5 coefficients is not supported" in page.text("#images figcaption"))[1],

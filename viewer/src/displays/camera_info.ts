@@ -25,7 +25,8 @@ export class CameraDisplay extends MessageDisplay<Shapes, "CameraInfo"> {
       };
       return group;
     }
-    const depth = this.options.number("Far Clip");
+    const { options } = this;
+    const depth = options.number("Far clip");
     const corner = (u: number, v: number): THREE.Vector3 =>
       new THREE.Vector3(((u - cx) / fx) * depth, ((v - cy) / fy) * depth, depth);
     const corners = [
@@ -37,23 +38,27 @@ export class CameraDisplay extends MessageDisplay<Shapes, "CameraInfo"> {
     const eye = new THREE.Vector3();
     const edges = corners.flatMap((at, i) => [eye, at, at, corners[(i + 1) % 4] as THREE.Vector3]);
     const sides = corners.flatMap((at, i) => [eye, at, corners[(i + 1) % 4] as THREE.Vector3]);
-    const color = this.options.color("Color");
-    group.add(
-      new THREE.LineSegments(
-        new THREE.BufferGeometry().setFromPoints(edges),
-        new THREE.LineBasicMaterial({ color: color }),
-      ),
-      new THREE.Mesh(
-        new THREE.BufferGeometry().setFromPoints(sides),
-        new THREE.MeshBasicMaterial({
-          color: color,
-          transparent: true,
-          opacity: this.options.number("Alpha"),
-          side: THREE.DoubleSide,
-          depthWrite: false,
-        }),
-      ),
-    );
+    const far = [0, 1, 2, 0, 2, 3].map((i) => corners[i] as THREE.Vector3);
+    if (options.flag("Show edges"))
+      group.add(
+        new THREE.LineSegments(
+          new THREE.BufferGeometry().setFromPoints(edges),
+          new THREE.LineBasicMaterial({ color: options.color("Edge color") }),
+        ),
+      );
+    if (options.flag("Show polygons"))
+      group.add(
+        new THREE.Mesh(
+          new THREE.BufferGeometry().setFromPoints(options.flag("Not show side polygons") ? far : sides),
+          new THREE.MeshBasicMaterial({
+            color: options.color("Color"),
+            transparent: true,
+            opacity: options.number("Alpha"),
+            side: THREE.DoubleSide,
+            depthWrite: false,
+          }),
+        ),
+      );
     return group;
   }
 }

@@ -102,7 +102,7 @@ export class CloudDisplay extends MessageDisplay<Cloud, CloudClass> {
 
   /**
    * Sets the range of the color scale to that of a message. A cloud with one value has the color of its topic, so that
-   * several flat scans can be told apart, unless the user or a file has chosen what the colors show.
+   * several flat scans differ, unless the user or a file has chosen what the colors show.
    */
   private setOwnRange(object: THREE.Object3D, low: number, high: number, isFlat = low === high): void {
     const { uniforms } = (object as THREE.Points).material as THREE.ShaderMaterial;

@@ -55,6 +55,7 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
   private readonly figure = h("figure", { hidden: true }, this.picture, this.caption);
   private projectionTime = 0;
   private problem = "";
+  private zoomOption = 1;
   /** The sequence number of the message on the canvas, or of the one being decoded. */
   private paintedSequence = -1;
 
@@ -80,8 +81,19 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
     this.updateCaption();
     this.projectionTime = 0;
     if (this.shownImage?.values) void this.paint(this.shownImage);
-    if (this.projects) this.layers.append(this.overlay.canvas);
-    else this.overlay.canvas.remove();
+    const zoom = this.options.number("Zoom Factor");
+    if (zoom !== this.zoomOption) this.zoom.reset((this.zoomOption = zoom));
+    this.canvas.style.opacity = "";
+    if (!this.projects) {
+      this.overlay.canvas.remove();
+      return;
+    }
+    this.layers.append(this.overlay.canvas);
+    // RViz draws the image behind the scene, above it, or both; the scene shines through the one above.
+    const rendering = this.options.choice("Image Rendering");
+    const alpha = this.options.number("Overlay Alpha");
+    this.overlay.canvas.style.opacity = rendering === "background" ? "" : String(1 - alpha);
+    if (rendering === "overlay") this.canvas.style.opacity = String(alpha);
   }
 
   override receive(message: DisplayMessage): void {
@@ -120,12 +132,17 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
     );
   }
 
-  /** Draws frames, clouds and shapes above the image, after the poses of all displays are set. */
-  project(displays: readonly Display[], framePoses: FramePoses, axisLength: number): void {
+  /**
+   * Draws frames, clouds and shapes above the image, after the poses of all displays are set.
+   *
+   * @param displays All displays, among them that of the camera.
+   * @param visible Those that are drawn.
+   */
+  project(displays: readonly Display[], visible: readonly Display[], framePoses: FramePoses, axisLength: number): void {
     const now = performance.now();
     if (!this.projects || this.figure.hidden || now - this.projectionTime < PROJECTION_INTERVAL_MS) return;
     this.projectionTime = now;
-    this.problem = this.tryToProject(displays, framePoses, axisLength);
+    this.problem = this.tryToProject(displays, visible, framePoses, axisLength);
     if (this.problem) this.overlay.clear();
     this.updateCaption();
   }
@@ -180,7 +197,12 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
     setText(this.caption, [name, this.pointedValue || range, zoomed].filter(Boolean).join(" · "));
   }
 
-  private tryToProject(displays: readonly Display[], framePoses: FramePoses, axisLength: number): string {
+  private tryToProject(
+    displays: readonly Display[],
+    visible: readonly Display[],
+    framePoses: FramePoses,
+    axisLength: number,
+  ): string {
     const topic = this.cameraTopic;
     if (!topic) return "no CameraInfo for this image";
     const cameras = displays.filter((display) => display instanceof CameraDisplay);
@@ -194,8 +216,8 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
     if (typeof project === "string") return project;
     const { canvas, options } = this;
     const shown = { width: canvas.clientWidth, height: canvas.clientHeight };
-    const content = contentOf(displays, framePoses, this.context.model, {
-      frames: options.flag("Project Frames"),
+    const content = contentOf(visible, framePoses, this.context.model, {
+      frames: options.flag("Project Frames") && displays.some(isTf) === visible.some(isTf),
       clouds: options.flag("Project Clouds"),
       shapes: options.flag("Project Shapes"),
     });
@@ -285,6 +307,10 @@ export class ImageDisplay extends MessageDisplay<Image, "Camera" | "Image"> {
     this.range = options.flag("Normalize Range") ? this.normalizedRange : given;
     return toColors(message, this.range);
   }
+}
+
+function isTf({ kind }: Display): boolean {
+  return kind === "TF";
 }
 
 function formatShort(value: number): string {

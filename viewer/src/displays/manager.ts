@@ -7,6 +7,7 @@ import { DISPLAYS } from "../generated/displays";
 import type {
   DisplayMessage,
   DisplayStatus,
+  Json,
   RobotModel,
   RvizConfiguration,
   RvizDisplay,
@@ -24,6 +25,7 @@ import { ImageDisplay } from "./image";
 import { displayClass, MessageDisplay, type Context, type Display, type DisplayConfig } from "./display";
 import { MAKERS } from "./registry";
 import { RobotDisplay } from "./robot";
+import { isObject } from "./options";
 import { TfDisplay } from "./tf";
 
 export class Displays {
@@ -77,7 +79,8 @@ export class Displays {
         display.markDetections(this.list);
         if (!display.projects) continue;
         this.showCamera(display.cameraTopic);
-        display.project(this.list, framePoses, AXIS_M * view.tf.scale);
+        const visible = this.list.filter((other) => this.isVisibleIn(display, other));
+        display.project(this.list, visible, framePoses, AXIS_M * view.tf.scale);
       }
     });
     view.addBounds(() => {
@@ -166,6 +169,23 @@ export class Displays {
   groupsEnabled(source: string | undefined): boolean {
     const group = source ? this.groups.find((other) => other.source === source) : undefined;
     return !group || (group.enabled && this.groupsEnabled(group.group));
+  }
+
+  /** Whether a camera of an .rviz file shows a display: its option "Visibility" contains the names of groups and displays. */
+  private isVisibleIn(camera: ImageDisplay, display: Display): boolean {
+    const path = [display.config.name];
+    for (let source = display.config.group; source;) {
+      const group = this.groups.find((other) => other.source === source);
+      if (group) path.unshift(group.name);
+      source = group?.group;
+    }
+    let at: Json | undefined = camera.config.options["Visibility"];
+    for (const name of path) {
+      if (!isObject(at)) return at !== false;
+      if (at["Value"] === false) return false;
+      at = at[name];
+    }
+    return isObject(at) ? at["Value"] !== false : at !== false;
   }
 
   private setShown(display: Display, enabled: boolean): void {

@@ -138,7 +138,7 @@ export class Options<C extends DisplayClass = DisplayClass> {
   }
 }
 
-function isObject(value: Json | undefined): value is JsonObject {
+export function isObject(value: Json | undefined): value is JsonObject {
   return typeof value === "object" && value !== null && !Array.isArray(value);
 }
 

@@ -20,19 +20,32 @@ export class PathDisplay extends MessageDisplay<Shapes, "Path"> {
       if (row.every(Number.isFinite)) points.push(...row);
     }
     if (points.length >= 6) group.add(this.line(points));
-    const style = this.options.choice("Pose Style");
-    const length = this.options.number("Length");
-    if (style === "Axes") group.add(poseAxes(poses, this.context.palette(), length, this.options.number("Radius")));
+    const { options } = this;
+    const style = options.choice("Pose Style");
+    if (style === "Axes")
+      group.add(poseAxes(poses, this.context.palette(), options.number("Length"), options.number("Radius")));
     if (style === "Arrows") {
       const geometry = arrowGeometry({
-        shaftLength: length * 0.75,
-        shaftRadius: length * 0.04,
-        headLength: length * 0.25,
-        headRadius: length * 0.1,
+        shaftLength: options.number("Shaft Length"),
+        shaftRadius: options.number("Shaft Diameter") / 2,
+        headLength: options.number("Head Length"),
+        headRadius: options.number("Head Diameter") / 2,
       });
-      group.add(instances(geometry, new THREE.MeshLambertMaterial({ color: this.options.color("Color") }), poses));
+      group.add(instances(geometry, new THREE.MeshLambertMaterial({ color: options.color("Pose Color") }), poses));
     }
-    return group;
+    return new THREE.Group().add(group);
+  }
+
+  /** Moves the path by the offset, which is expressed in the fixed frame. */
+  protected override onPose(object: THREE.Object3D): void {
+    const [x, y, z] = (["Offset/X", "Offset/Y", "Offset/Z"] as const).map((key) => this.options.number(key));
+    object.children[0]?.position.set(x ?? 0, y ?? 0, z ?? 0).applyQuaternion(object.quaternion.clone().invert());
+  }
+
+  /** Returns the corners of the bounding box. */
+  protected override describe(_message: Shapes, object: THREE.Object3D): Record<string, unknown> {
+    const box = new THREE.Box3().setFromObject(object);
+    return { min: this.toFixedFrame(box.min), max: this.toFixedFrame(box.max) };
   }
 
   private line(points: number[]): THREE.Object3D {

@@ -3,7 +3,7 @@
 
 import * as THREE from "three";
 import { slice, type Shapes } from "../protocol/messages";
-import { arrowGeometry, instances, poseAxes } from "./arrows";
+import { arrowGeometry, flatArrowGeometry, instances, poseAxes } from "./arrows";
 import { covarianceShapes } from "./covariance";
 import { MessageDisplay } from "./display";
 
@@ -47,21 +47,21 @@ export class PosesDisplay extends MessageDisplay<Shapes, "Pose" | "PoseArray" | 
   private shape(poses: Float32Array, scale: number): THREE.Object3D {
     const number = (key: ShapeNumber): number =>
       this.isNested ? this.options.number(`Shape/${key}`) : this.options.number(key);
-    if (this.options.choice(this.isNested ? "Shape/Value" : "Shape") === "Axes")
-      return poseAxes(poses, this.context.palette(), number("Axes Length"), number("Axes Radius"));
+    const shape = this.options.choice(this.isNested ? "Shape/Value" : "Shape");
+    if (shape === "Axes") return poseAxes(poses, this.context.palette(), number("Axes Length"), number("Axes Radius"));
+    const alpha = number("Alpha");
+    const look = { color: this.color, transparent: alpha < 1, opacity: alpha };
+    if (shape === "Arrow (Flat)") {
+      const flat = new THREE.MeshBasicMaterial({ ...look, side: THREE.DoubleSide });
+      return instances(flatArrowGeometry(), flat, poses, scale * this.options.number("Arrow Length"));
+    }
     const geometry = arrowGeometry({
       shaftLength: number("Shaft Length"),
       shaftRadius: number("Shaft Radius"),
       headLength: number("Head Length"),
       headRadius: number("Head Radius"),
     });
-    const alpha = number("Alpha");
-    const material = new THREE.MeshLambertMaterial({
-      color: this.color,
-      transparent: alpha < 1,
-      opacity: alpha,
-    });
-    return instances(geometry, material, poses, scale);
+    return instances(geometry, new THREE.MeshLambertMaterial(look), poses, scale);
   }
 }
 

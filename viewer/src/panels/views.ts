@@ -4,8 +4,9 @@
 import type { Model } from "../model/model";
 import type { JsonObject } from "../protocol/messages";
 import type { View as CameraView } from "../scene/camera";
+import { ANY_DIRECTION, DIRECTIONS } from "../scene/look_controls";
 import type { View } from "../scene/view";
-import { copyText, h, iconButton, shorten } from "../util/dom";
+import { copyText, fillSelect, h, iconButton, shorten } from "../util/dom";
 import { link, linked } from "../util/link";
 import { loadList, storeValue } from "../util/storage";
 import { toast } from "../util/toast";
@@ -16,6 +17,8 @@ const MAX_VIEWS = 50;
 const MAX_NAME = 80;
 const DEGREES = 180 / Math.PI;
 const ANGLES = new Set(["Pitch", "Yaw", "Roll", "Angle"]);
+const LOCK = "Lock Camera";
+const DIRECTION = "Point towards";
 const START: CameraView = {
   class: "rviz_default_plugins/Orbit",
   options: { Distance: 5, "Focal Point": { X: 0, Y: 0, Z: 0 }, Pitch: 0.6, Yaw: 0.8 },
@@ -34,6 +37,15 @@ export class ViewsPanel {
   private readonly list = h("ul", { class: "list", id: "saved-views" });
   private readonly name = h("input", { type: "text", placeholder: "Name", maxlength: String(MAX_NAME) });
   private readonly inputs = new Map<string, HTMLInputElement>();
+  private readonly locked = h("input", { type: "checkbox", aria: { label: LOCK } });
+  private readonly direction = h("select", { aria: { label: DIRECTION } });
+  /** The options that only RViz's FrameAligned view has. */
+  private readonly aligned = h(
+    "div",
+    { class: "view-fields", hidden: true },
+    h("label", { class: "field" }, h("span", {}, DIRECTION), this.direction),
+    h("label", { class: "field" }, h("span", {}, LOCK), this.locked),
+  );
   private saved: SavedView[];
   private updated = 0;
 
@@ -57,6 +69,7 @@ export class ViewsPanel {
         iconButton("close", "Close (w)", () => this.toggle()),
       ),
       this.fields,
+      this.aligned,
       h(
         "div",
         { class: "buttons" },
@@ -80,6 +93,14 @@ export class ViewsPanel {
       ),
       this.list,
     );
+    const directions = [ANY_DIRECTION, ...DIRECTIONS.keys()];
+    fillSelect(
+      this.direction,
+      directions.map((name) => [name, name] as const),
+      ANY_DIRECTION,
+    );
+    this.direction.addEventListener("change", () => this.look(this.direction.value));
+    this.locked.addEventListener("change", () => this.change({ [LOCK]: this.locked.checked }));
     root.append(this.element);
     view.onDrawn(() => this.update());
     model.on("hello", () => this.openLinked());
@@ -137,7 +158,11 @@ export class ViewsPanel {
     const now = performance.now();
     if (this.element.hidden || now - this.updated < UPDATE_MS) return;
     this.updated = now;
-    const numbers = numbersOf(this.current.options);
+    const { options } = this.current;
+    this.aligned.hidden = !(DIRECTION in options);
+    this.locked.checked = options[LOCK] === true;
+    if (this.direction !== document.activeElement) this.direction.value = String(options[DIRECTION]);
+    const numbers = numbersOf(options);
     if ([...numbers.keys()].join() !== [...this.inputs.keys()].join()) this.makeFields([...numbers.keys()]);
     for (const [path, value] of numbers) {
       const input = this.inputs.get(path);
@@ -160,13 +185,25 @@ export class ViewsPanel {
 
   private set(path: string, value: number): void {
     if (!Number.isFinite(value)) return;
-    const { class: kind, options } = this.current;
-    const changed = structuredClone(options);
+    const changed = structuredClone(this.current.options);
     const [outer, inner] = path.split("/") as [string, string?];
     const number = ANGLES.has(path) ? value / DEGREES : value;
     if (inner === undefined) changed[outer] = number;
     else (changed[outer] as JsonObject)[inner] = number;
-    this.apply({ class: kind, options: changed });
+    this.change(changed);
+  }
+
+  private change(changed: JsonObject): void {
+    const { class: kind, options } = this.current;
+    this.apply({ class: kind, options: { ...options, ...changed } });
+  }
+
+  /** Looks along an axis of the frame, from its origin, as RViz does. */
+  private look(direction: string): void {
+    const { class: kind, options } = this.current;
+    if (!DIRECTIONS.has(direction)) return;
+    const kept = { "Target Frame": options["Target Frame"] ?? "", [LOCK]: options[LOCK] ?? false };
+    this.apply({ class: kind, options: { ...kept, [DIRECTION]: direction } });
   }
 
   private save(): void {

@@ -4,7 +4,7 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Json, JsonObject, Vector } from "../protocol/messages";
-import { LookControls } from "./look_controls";
+import { DIRECTIONS, LookControls } from "./look_controls";
 
 /** How the camera is moved: around a point, from above, or by looking around. */
 export type CameraMode = "orbit" | "top" | "look";
@@ -103,6 +103,7 @@ export class Camera {
     this.controls[this.mode].enabled = false;
     this.controller = controller;
     this.mode = CONTROLLERS[controller] as CameraMode;
+    if (controller !== "FrameAligned") this.controls.look.locked = false;
     this.controls[this.mode].enabled = true;
     if (this.mode !== "top") this.perspective.up.set(0, 0, 1);
   }
@@ -295,10 +296,13 @@ export class Camera {
       this.moveTo(target, this.height / Math.max(1e-3, option("Scale", 80)));
     } else if (this.mode === "look") {
       const { look } = this.controls;
+      const isAligned = name === "FrameAligned";
+      const [yaw, pitch] = DIRECTIONS.get(isAligned ? String(view.options["Point towards"]) : "") ?? [0, 0];
       look.position.copy(point("Position"));
-      look.yaw = option("Yaw", 0);
-      look.pitch = option("Pitch", 0);
+      look.yaw = option("Yaw", yaw);
+      look.pitch = option("Pitch", pitch);
       look.roll = option("Roll", 0);
+      look.locked = isAligned && view.options["Lock Camera"] === true;
       this.attach(reference);
     } else {
       const turn = name === "ThirdPersonFollower" ? this.followedYaw : 0;
@@ -327,7 +331,9 @@ export class Camera {
       };
     if (this.mode === "look") {
       const angles = { Pitch: look.pitch, Yaw: normalizeAngle(look.yaw), ...(look.roll ? { Roll: look.roll } : {}) };
-      return { class: name, options: { ...angles, Position: xyz(look.position), ...frame } };
+      const aligned = { "Lock Camera": look.locked, "Point towards": look.direction };
+      const own = this.controller === "FrameAligned" ? aligned : {};
+      return { class: name, options: { ...own, ...angles, Position: xyz(look.position), ...frame } };
     }
     const turn = this.controller === "ThirdPersonFollower" ? this.followedYaw : 0;
     const away = this.perspective.position.clone().sub(this.target);

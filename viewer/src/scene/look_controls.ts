@@ -9,8 +9,23 @@ const METERS_PER_WHEEL = 0.004;
 /** Just below 90 degrees, where yaw is still defined. */
 const MAX_PITCH = 1.57;
 
+/** The directions in which RViz's FrameAligned view can look, as angles of yaw and pitch. */
+export const DIRECTIONS: ReadonlyMap<string, readonly [yaw: number, pitch: number]> = new Map([
+  ["+x axis", [0, 0]],
+  ["-x axis", [Math.PI, 0]],
+  ["+y axis", [Math.PI / 2, 0]],
+  ["-y axis", [-Math.PI / 2, 0]],
+  ["+z axis", [0, -Math.PI / 2]],
+  ["-z axis", [0, Math.PI / 2]],
+]);
+/** What RViz writes for all other directions. */
+export const ANY_DIRECTION = "arbitrary";
+const DIRECTION_TOLERANCE = 1e-3;
+
 export class LookControls {
   enabled = false;
+  /** Whether the camera keeps its pose relative to its frame, whatever the user does. */
+  locked = false;
   readonly position = new THREE.Vector3();
   /** Radians; a positive pitch looks down, as in RViz. */
   yaw = 0;
@@ -53,6 +68,14 @@ export class LookControls {
     return this.camera.position.clone().add(ahead);
   }
 
+  /** The axis along which the camera looks, as RViz writes it. */
+  get direction(): string {
+    const ahead = aheadOf(this.yaw, this.pitch);
+    for (const [name, [yaw, pitch]] of DIRECTIONS)
+      if (ahead.distanceTo(aheadOf(yaw, pitch)) < DIRECTION_TOLERANCE) return name;
+    return ANY_DIRECTION;
+  }
+
   /** Turns to a point in the scene. */
   lookAt(point: THREE.Vector3): void {
     const ahead = point.clone().sub(this.camera.position).applyQuaternion(this.base.quaternion.clone().invert());
@@ -62,7 +85,7 @@ export class LookControls {
 
   /** Turns by radians. */
   turn(yaw: number, pitch: number): void {
-    if (!this.enabled) return;
+    if (!this.enabled || this.locked) return;
     this.yaw += yaw;
     this.pitch = Math.max(-MAX_PITCH, Math.min(MAX_PITCH, this.pitch + pitch));
     this.update();
@@ -83,9 +106,15 @@ export class LookControls {
 
   /** Moves forward, to the left and up, in meters. */
   move(forward: number, left: number, up: number): void {
-    if (!this.enabled) return;
+    if (!this.enabled || this.locked) return;
     this.position.add(new THREE.Vector3(forward, left, up).applyQuaternion(this.orientation()));
     this.update();
     this.onChange();
   }
+}
+
+/** The unit vector in the direction of two angles. */
+function aheadOf(yaw: number, pitch: number): THREE.Vector3 {
+  const flat = Math.cos(pitch);
+  return new THREE.Vector3(Math.cos(yaw) * flat, Math.sin(yaw) * flat, -Math.sin(pitch));
 }

@@ -16,7 +16,9 @@ if TYPE_CHECKING:
 __all__ = ["ignored_options", "ignored_panels", "ignored_tools", "ignored_view_options"]
 
 # What the page or the server reads without a row of options; the first part of a path decides.
-_KEYS_READ_ELSEWHERE = frozenset({*OWN_KEYS, *TOPIC_KEYS, "Value", "Namespaces", "Frames", "Frame Timeout"})
+_KEYS_READ_ELSEWHERE = frozenset(
+    {*OWN_KEYS, *TOPIC_KEYS, "Value", "Namespaces", "Frames", "Frame Timeout", "Visibility"}
+)
 # How RViz shows its own tree and receives messages, which has no equivalent here.
 _KEYS_WITHOUT_EFFECT = frozenset(
     {
@@ -34,7 +36,7 @@ _VIEW_KEYS_READ = {
     "XYOrbit": {"Distance", "Focal Point", "Pitch", "Yaw"},
     "ThirdPersonFollower": {"Distance", "Focal Point", "Pitch", "Yaw"},
     "FPS": {"Position", "Pitch", "Yaw", "Roll"},
-    "FrameAligned": {"Position", "Pitch", "Yaw", "Roll"},
+    "FrameAligned": {"Position", "Pitch", "Yaw", "Roll", "Point towards", "Lock Camera"},
     "TopDownOrtho": {"Angle", "Scale", "X", "Y"},
 }
 _VIEW_KEYS_OF_ALL = frozenset(

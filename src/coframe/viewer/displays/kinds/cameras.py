@@ -9,7 +9,7 @@ from coframe._output.formatting import error_text
 from coframe.cameras import CameraError, lens_of
 from coframe.viewer.displays._drawing import NO_NUMBERS, Drawing, Options, drawing_of_shapes, finite_all, header_of
 from coframe.viewer.displays._renderers import draw_each_message
-from coframe.viewer.displays._row import ColorOption, DisplayRow, NumberOption
+from coframe.viewer.displays._row import ColorOption, DisplayRow, FlagOption, NumberOption
 
 __all__ = ["CAMERA_INFO", "CameraShape", "draw_camera"]
 
@@ -66,9 +66,13 @@ CAMERA_INFO = DisplayRow(
     name="CameraInfo",
     messages={"sensor_msgs/msg/CameraInfo": draw_each_message(draw_camera)},
     options=(
-        NumberOption("Far Clip", 0.5, 0.01, 1000.0, 0.1, "m", label="Length"),
-        ColorOption("Color", "#f5d90a"),
-        NumberOption("Alpha", 0.15, 0.0, 1.0, 0.05),
+        NumberOption("Far clip", 0.5, 0.01, 1000.0, 0.1, "m", label="Length", aliases=("Far Clip",)),
+        FlagOption("Show polygons", True),
+        FlagOption("Not show side polygons", False, needs="Show polygons"),
+        ColorOption("Color", "#f5d90a", needs="Show polygons"),
+        NumberOption("Alpha", 0.15, 0.0, 1.0, 0.05, needs="Show polygons"),
+        FlagOption("Show edges", True),
+        ColorOption("Edge color", "#f5d90a", needs="Show edges"),
     ),
     shapes=(CameraShape,),
     guide="CameraInfo as a view frustum",

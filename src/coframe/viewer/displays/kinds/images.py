@@ -147,6 +147,7 @@ class FFMPEGPacketRenderer:
 
 def _options(*, project: bool) -> tuple[Option, ...]:
     needs = "Project"
+    overlays = "overlay|background and overlay"
     return (
         NumberOption("Width", 260.0, 60.0, 1600.0, 20.0, "px"),
         FlagOption("Normalize Range", True),
@@ -159,6 +160,9 @@ def _options(*, project: bool) -> tuple[Option, ...]:
         FlagOption("Project Shapes", True, label="Markers and paths", needs=needs),
         FlagOption("Project Detections", True, label="Detections"),
         NumberOption("Far Plane Distance", 100.0, 0.01, 1e6, 10.0, "m", needs=needs),
+        ChoiceOption("Image Rendering", "background", ("background", "overlay", "background and overlay"), needs=needs),
+        NumberOption("Overlay Alpha", 0.5, 0.0, 1.0, 0.05, needs=f"{needs} & Image Rendering={overlays}"),
+        NumberOption("Zoom Factor", 1.0, 1.0, 64.0, 0.5),
         ChoiceOption("Rectified", "By topic", ("By topic", "Yes", "No"), needs=needs),
     )
 
@@ -195,5 +199,5 @@ CAMERA = DisplayRow(
     large_in_replay=True,
     has_surfaces=False,
     guide="Image and CompressedImage with the scene above them: an Image with the option *Project the scene*",
-    lacks="maps, the faces of robots, and Overlay Alpha: the scene is drawn as points and lines above the image",
+    lacks="maps and the faces of robots: the scene is drawn as points and lines above the image",
 )

@@ -30,6 +30,7 @@ def draw_path(message: Any, options: Options) -> Drawing:
     return drawing_of_shapes(message, description, poses, offset)
 
 
+_ARROWS = "Pose Style=Arrows"
 PATH = DisplayRow(
     name="Path",
     rank=3,
@@ -38,10 +39,17 @@ PATH = DisplayRow(
         ColorOption("Color", "#19d245"),
         NumberOption("Alpha", 1.0, 0.0, 1.0, 0.05),
         ChoiceOption("Line Style", "Lines", ("Lines", "Billboards")),
-        NumberOption("Line Width", 0.03, 0.001, 10.0, 0.01, "m"),
+        NumberOption("Line Width", 0.03, 0.001, 10.0, 0.01, "m", needs="Line Style=Billboards"),
+        NumberOption("Buffer Length", 1.0, 1.0, 1000.0, 1.0, sets="history"),
+        *(NumberOption(f"Offset/{axis}", 0.0, -1e6, 1e6, 0.1, "m", label=f"Offset {axis}") for axis in "XYZ"),
         ChoiceOption("Pose Style", "None", ("None", "Axes", "Arrows")),
-        NumberOption("Length", 0.3, 0.001, 100.0, 0.05, "m"),
-        NumberOption("Radius", 0.03, 0.0005, 10.0, 0.005, "m"),
+        NumberOption("Length", 0.3, 0.001, 100.0, 0.05, "m", needs="Pose Style=Axes"),
+        NumberOption("Radius", 0.03, 0.0005, 10.0, 0.005, "m", needs="Pose Style=Axes"),
+        ColorOption("Pose Color", "#ff55ff", needs=_ARROWS),
+        NumberOption("Shaft Length", 0.1, 0.001, 100.0, 0.05, "m", needs=_ARROWS),
+        NumberOption("Shaft Diameter", 0.1, 0.0005, 10.0, 0.01, "m", needs=_ARROWS),
+        NumberOption("Head Length", 0.2, 0.001, 100.0, 0.05, "m", needs=_ARROWS),
+        NumberOption("Head Diameter", 0.3, 0.0005, 10.0, 0.01, "m", needs=_ARROWS),
     ),
     shapes=(PathShape,),
     guide="Path as a line, with axes or arrows at its poses",

@@ -117,17 +117,32 @@ _SHAPE = (
     ChoiceOption("Shape", "Arrow", ("Arrow", "Axes")),
     ColorOption("Color", "#ff8a1f"),
     NumberOption("Alpha", 1.0, 0.0, 1.0, 0.05),
-    NumberOption("Shaft Length", 0.35, 0.001, 100.0, 0.05, "m"),
-    NumberOption("Shaft Radius", 0.02, 0.0005, 10.0, 0.005, "m"),
-    NumberOption("Head Length", 0.12, 0.001, 100.0, 0.01, "m"),
-    NumberOption("Head Radius", 0.045, 0.001, 10.0, 0.005, "m"),
-    NumberOption("Axes Length", 0.3, 0.001, 100.0, 0.05, "m"),
-    NumberOption("Axes Radius", 0.02, 0.0005, 10.0, 0.005, "m"),
+    NumberOption("Shaft Length", 0.35, 0.001, 100.0, 0.05, "m", needs="Shape=Arrow"),
+    NumberOption("Shaft Radius", 0.02, 0.0005, 10.0, 0.005, "m", needs="Shape=Arrow"),
+    NumberOption("Head Length", 0.12, 0.001, 100.0, 0.01, "m", needs="Shape=Arrow"),
+    NumberOption("Head Radius", 0.045, 0.001, 10.0, 0.005, "m", needs="Shape=Arrow"),
+    NumberOption("Axes Length", 0.3, 0.001, 100.0, 0.05, "m", needs="Shape=Axes"),
+    NumberOption("Axes Radius", 0.02, 0.0005, 10.0, 0.005, "m", needs="Shape=Axes"),
+)
+_ARRAY_SHAPE = (
+    ChoiceOption("Shape", "Arrow (3D)", ("Arrow (Flat)", "Arrow (3D)", "Axes")),
+    *_SHAPE[1:3],
+    NumberOption("Arrow Length", 0.3, 0.001, 100.0, 0.05, "m", needs="Shape=Arrow (Flat)"),
+    *(replace(option, needs=option.needs.replace("Arrow", "Arrow (3D)")) for option in _SHAPE[3:]),
 )
 # RViz 2 nests the options of the shape of an Odometry display; those of poses are not nested.
 _NESTED_SHAPE = (
     replace(_SHAPE[0], key="Shape/Value", label="Shape"),
-    *(replace(option, key=f"Shape/{option.key}", label=option.key, aliases=(option.key,)) for option in _SHAPE[1:]),
+    *(
+        replace(
+            option,
+            key=f"Shape/{option.key}",
+            label=option.key,
+            aliases=(option.key,),
+            needs=option.needs.replace("Shape=", "Shape/Value="),
+        )
+        for option in _SHAPE[1:]
+    ),
 )
 _COVARIANCE_KEY = "Covariance/Value"
 _COVARIANCE = (
@@ -157,9 +172,9 @@ POSE = DisplayRow(
 )
 POSE_ARRAY = DisplayRow(
     name="PoseArray",
-    guide="PoseArray as arrows or axes",
+    guide="PoseArray as flat or solid arrows, or axes",
     messages={"geometry_msgs/msg/PoseArray": draw_each_message(draw_pose_array)},
-    options=_SHAPE,
+    options=_ARRAY_SHAPE,
     shapes=(PosesShape,),
     projected=True,
 )
