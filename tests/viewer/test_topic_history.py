@@ -3,6 +3,7 @@
 
 import contextlib
 import json
+from types import SimpleNamespace
 
 import pytest
 import recordings
@@ -12,7 +13,8 @@ from runs import MS, SECOND, Run
 import coframe
 from coframe.errors import PlotError
 from coframe.messages import find
-from coframe.viewer.panels.states import parse_state_field, state_text
+from coframe.viewer.panels.states import StateHistory, parse_state_field, read_histories, state_text
+from coframe.viewer.sources.topic_messages import StampedMessage
 
 STATES = ["idle", "idle", "driving", "driving", "driving", "docked", "idle"]
 
@@ -128,6 +130,43 @@ def test_what_is_not_shown_of_states_is_said(json_tab):
     assert 5 in order[order.index(6) :], "the fields are not read in turn"
     tab.send("states", fields=[{"id": 9, "expression": "/many.m"}])
     assert "has no field 'm'. Fields: n." in tab.wait("states", lambda one: one["state"] == "error")["text"]
+
+
+def test_fields_of_a_topic_are_read_together(json_tab, monkeypatch):
+    from coframe.viewer.sources.recorded import RecordedMessages
+
+    reads = []
+    read = RecordedMessages._read
+    monkeypatch.setattr(RecordedMessages, "_read", lambda self, index: reads.append(index) or read(self, index))
+    tab = json_tab(both=[{"n": i, "m": i // 2} for i in range(1200)])
+    fields = ["/both.n", "/both.m", "/both.nothing"]
+    tab.send("states", fields=[{"id": i, "expression": text} for i, text in enumerate(fields)])
+    found = {0: [], 1: []}
+
+    def collect(message):
+        if message["id"] in found:
+            found[message["id"]] += [one["text"] for one in message["changes"]]
+        return len(found[0]) == 1200 and len(found[1]) == 600
+
+    tab.wait("states", collect)
+    assert found == {0: [str(i) for i in range(1200)], 1: [str(i) for i in range(600)]}
+    assert sorted(reads) == list(range(1200)), "each message is read once"
+
+
+def test_states_are_in_order_although_the_time_of_a_topic_jumps_back():
+    stamps = [10, 20, 30, 15, 40]
+    texts = ["a", "b", "c", "c", "d"]
+    stored = [
+        StampedMessage(key, stamp, lambda text=text: {"data": text})
+        for key, (stamp, text) in enumerate(zip(stamps, texts, strict=True), start=1)
+    ]
+    messages = SimpleNamespace(
+        type="", at=lambda _time: stored[-1], times=lambda: stamps, after=lambda key, last: stored[key:last]
+    )
+    history = StateHistory(parse_state_field("/state.data"), messages)
+    assert read_histories([history]) == {}
+    assert history.since(0) == [(10, "a"), (15, "c"), (40, "d")], "what was after the jump belongs to another time"
+    assert (history.edition, history.total, history.until) == (1, 3, 40)
 
 
 @pytest.fixture

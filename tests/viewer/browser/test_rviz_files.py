@@ -108,6 +108,26 @@ def test_files_are_applied_and_saved_unchanged(source, view, open_page, tmp_path
     close(page.evaluate("coframe.camera.position"), [8.0, 21.0, 3.0])
     assert saved(page) == document(ALIGNED)
 
+    locked = ALIGNED | {"Lock Camera": True, "Point towards": "arbitrary"}
+    opened(page, tmp_path, document(locked))
+    before = page.evaluate("coframe.camera")
+    page.raw.mouse.move(600, 300)
+    page.raw.mouse.down()
+    page.raw.mouse.move(700, 350, steps=3)
+    page.raw.mouse.up()
+    page.raw.mouse.wheel(0, 400)
+    assert page.evaluate("coframe.camera") == before
+    assert saved(page) == document(locked)
+    page.key("w")
+    page.raw.get_by_label("Point towards").select_option("-z axis")
+    page.until("coframe.camera.position[2] === 0")
+    close(page.evaluate("coframe.camera.position"), list(BASE))
+    close(page.evaluate("coframe.camera.target"), [10.0, 20.0, -1.0])
+    page.raw.get_by_label("Lock Camera").uncheck()
+    changed = saved(page)["Visualization Manager"]["Views"]["Current"]
+    assert (changed["Point towards"], changed["Lock Camera"]) == ("-z axis", False)
+    page.key("w")
+
     opened(page, tmp_path, document(FOLLOWER))
     close(page.evaluate("coframe.camera.target"), [9.5, 21.0, 0.25])
     assert saved(page) == document(FOLLOWER)

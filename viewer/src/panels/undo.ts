@@ -7,6 +7,8 @@ import type { View } from "../scene/view";
 import { toast } from "../util/toast";
 
 const MAX_STEPS = 100;
+/** The displays of a large .rviz file take a megabyte per step. */
+const MAX_CHARACTERS = 32 << 20;
 /** A drag or several turns of the wheel are one step; the camera also needs a moment to come to rest. */
 const SETTLING_MS = 400;
 
@@ -103,9 +105,19 @@ export class Undo {
     this.isActing = false;
     const now = this.snapshot();
     if (now.displays === this.current.displays && now.camera === this.current.camera) return;
+    // Moving the camera does not need another copy of the displays.
+    if (now.displays === this.current.displays) now.displays = this.current.displays;
     this.past.push(this.current);
-    if (this.past.length > MAX_STEPS) this.past.shift();
     this.future = [];
     this.current = now;
+    while (this.past.length > MAX_STEPS || charactersOf(this.past) > MAX_CHARACTERS) this.past.shift();
   }
+}
+
+/** The length of all steps; steps with the same displays share their text. */
+function charactersOf(steps: readonly Snapshot[]): number {
+  let total = 0;
+  for (const [i, { displays, camera }] of steps.entries())
+    total += camera.length + (displays === steps[i - 1]?.displays ? 0 : displays.length);
+  return total;
 }

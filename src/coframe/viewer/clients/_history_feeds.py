@@ -15,7 +15,7 @@ from coframe.viewer.protocol.encoding import encode
 from coframe.viewer.protocol.panel_messages import FieldStates, StateChange, TableColumn, TableRow, TopicTable
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
     from concurrent.futures import Future
 
     from coframe.viewer.clients._panels import ShownStates, WatchedTopic
@@ -124,12 +124,12 @@ class TableFeed(PanelFeed):
 
 
 class StatesFeed(PanelFeed):
-    """The states of fields, which another thread reads one field after the other."""
+    """The states of fields, which another thread reads one topic after the other."""
 
     def __init__(self, client: ClientState) -> None:
         super().__init__(client)
         self._late_due = 0.0
-        self._reading: tuple[ShownStates, Future[bool]] | None = None
+        self._reading: tuple[list[ShownStates], Future[dict[StateHistory, Exception]]] | None = None
         self._last = -1
 
     def updates(self, now: float) -> Iterator[Update]:
@@ -142,40 +142,39 @@ class StatesFeed(PanelFeed):
             self._late_due = now + _LATE_PERIOD
             for one in shown.values():
                 one.open_topic()
-        self._read(now)
-        for number, one in shown.items():
-            yield from self._changes(number, one)
-
-    def _read(self, now: float) -> None:
-        """Read the next messages of the next field that has new ones."""
-        if self._reading is not None:
-            one, future = self._reading
-            if not future.done():
-                self.due = now + _READING_PERIOD
-                return
+        if self._reading is not None and self._reading[1].done():
+            fields, future = self._reading
             self._reading = None
-            self._finish(one, future)
+            _note_errors(fields, future.result())
+        busy = self._reading[0] if self._reading is not None else ()
+        for number, one in shown.items():
+            if one not in busy:
+                yield from self._changes(number, one)
+        if self._reading is None:
+            self._read_next()
+        if self._reading is not None:
+            self.due = now + _READING_PERIOD
+
+    def _read_next(self) -> None:
+        """Read the next messages of the next topic that has new ones, for all fields that need the same messages."""
         waiting = {number: one for number, one in self._panels.states.items() if one.history and not one.problem}
         for number in sorted(waiting, key=lambda number: (number <= self._last, number)):
             history = waiting[number].history
             if history is not None and history.done < 1.0:
-                self._last = number
-                self._reading = (waiting[number], self._client.viewer.executor.submit(history.read))
-                self.due = now + _READING_PERIOD
-                return
+                from coframe.viewer.panels.states import read_histories  # noqa: PLC0415 - needs the message classes
 
-    def _finish(self, one: ShownStates, future: Future[bool]) -> None:
-        try:
-            future.result()
-        except CoframeError as error:
-            one.problem = error_text(error)
-        except Exception as error:  # An unexpected error in one field must not stop the others.
-            _logger.exception("the states of a field could not be read")
-            one.problem = f"The states cannot be read: {type(error).__name__}: {error}."
+                fields = [one for one in waiting.values() if _needs_same_messages(one, waiting[number])]
+                histories = [one.history for one in fields if one.history is not None]
+                # The fields that are read with it have had their turn, too.
+                self._last = max(key for key, one in waiting.items() if one in fields)
+                self._reading = (fields, self._client.viewer.executor.submit(read_histories, histories))
+                return
 
     def _changes(self, number: int, one: ShownStates) -> Iterator[Update]:
         history = one.history
         state, text = self._status(one, history)
+        if history is not None and history.edition != one.edition:
+            one.edition, one.seen = history.edition, None
         total = history.total if history else 0
         until = history.until if history else None
         is_new = one.seen is None or total > one.seen
@@ -220,6 +219,22 @@ class StatesFeed(PanelFeed):
                 changes=[StateChange(stamp=float(time - origin), text=text) for time, text in changes],
             )
         )
+
+
+def _needs_same_messages(one: ShownStates, other: ShownStates) -> bool:
+    if one.history is None or other.history is None or one.watched is None or other.watched is None:
+        return False
+    return one.watched.messages is other.watched.messages and one.history.key == other.history.key
+
+
+def _note_errors(fields: Sequence[ShownStates], failed: Mapping[StateHistory, Exception]) -> None:
+    for one in fields:
+        error = failed.get(one.history) if one.history is not None else None
+        if isinstance(error, CoframeError):
+            one.problem = error_text(error)
+        elif error is not None:
+            _logger.error("the states of a field could not be read", exc_info=error)
+            one.problem = f"The states cannot be read: {type(error).__name__}: {error}."
 
 
 def _note_of(history: StateHistory) -> str:

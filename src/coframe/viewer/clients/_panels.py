@@ -104,6 +104,7 @@ class ShownStates:
         problem: Why there are no states, or "".
         history: The states, or None while the topic does not exist.
         seen: The number of changes that were sent, or None before the first message.
+        edition: The edition of the changes that were sent.
         serial: A number that no other field has.
     """
 
@@ -116,6 +117,7 @@ class ShownStates:
         self.history: StateHistory | None = None
         self.problem = ""
         self.seen: int | None = None
+        self.edition = 0
         try:
             self._field = parse_state_field(expression)
         except PlotError as error:

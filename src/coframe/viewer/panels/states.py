@@ -15,9 +15,11 @@ from coframe.plotting.expressions import FieldExpression, parse_expression
 from coframe.plotting.values import NoElementError, field_content, field_names
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 
-__all__ = ["MAX_CHANGES", "StateHistory", "StateSpan", "parse_state_field", "state_text"]
+__all__ = ["MAX_CHANGES", "StateHistory", "StateSpan", "parse_state_field", "read_histories", "state_text"]
 
 MAX_CHANGES = 5000
 _MAX_TEXT = 100
@@ -43,15 +45,39 @@ def parse_state_field(text: str) -> FieldExpression:
     return expression
 
 
+def read_histories(histories: Sequence[StateHistory]) -> dict[StateHistory, Exception]:
+    """Read the next messages of a topic for several fields, and return the errors of fields that cannot be read.
+
+    Args:
+        histories: Histories of the same messages, which have been read up to the same one.
+    """
+    failed: dict[StateHistory, Exception] = {}
+    for message in histories[0].next_messages():
+        try:
+            content = message.read()
+        except ValueError:  # The bytes do not match the type.
+            content = None
+        for history in histories:
+            if history in failed:
+                continue
+            try:
+                history.add(message, content)
+            except Exception as error:  # noqa: BLE001 - one field must not stop the others
+                failed[history] = error
+    return failed
+
+
 class StateHistory:
-    """The changes of a field, which another thread reads batch by batch.
+    """The changes of a field, which another thread reads batch by batch with `read_histories`.
 
     Args:
         field: The field.
         messages: The messages of its topic.
 
     Attributes:
-        total: The number of changes that were ever found.
+        key: The key of the last message that was read.
+        total: The number of changes that were found.
+        edition: A number that changes if changes were removed, because the time of the topic jumped back.
         until: The time of the last message that was read in nanoseconds, or None before the first one.
         skipped: The number of messages without a value.
         problem: Why no message has had a value yet, or None.
@@ -60,7 +86,7 @@ class StateHistory:
     def __init__(self, field: FieldExpression, messages: TopicMessages) -> None:
         self._field, self._messages = field, messages
         self._changes: deque[StateSpan] = deque(maxlen=MAX_CHANGES)
-        self._key = 0
+        self.key = self.edition = 0
         self.total = self.skipped = 0
         self.until: int | None = None
         self.problem: PlotError | None = None
@@ -70,22 +96,15 @@ class StateHistory:
     def done(self) -> float:
         """The part of the messages that was read, from 0 to 1."""
         newest = self._messages.at(0)
-        return 1.0 if newest is None else min(1.0, self._key / newest.key)
+        return 1.0 if newest is None else min(1.0, self.key / newest.key)
 
-    def read(self) -> bool:
-        """Read the next messages, and return whether there were any.
-
-        Raises:
-            PlotError: The type has no such field.
-        """
+    def next_messages(self) -> list[StampedMessage]:
+        """Return the next messages to read."""
         newest = self._messages.at(0)
-        if newest is None or newest.key <= self._key:
-            return False
+        if newest is None or newest.key <= self.key:
+            return []
         # Keys of a live topic begin late when old messages were dropped; the first known one is the next.
-        for message in self._messages.after(self._key, self._next_key(newest)):
-            self._add(message)
-            self._key = message.key
-        return True
+        return self._messages.after(self.key, self._next_key(newest))
 
     def since(self, total: int) -> list[StateSpan]:
         """Return the changes after the first `total` ones, as far as they are kept."""
@@ -95,12 +114,20 @@ class StateHistory:
     def _next_key(self, newest: StampedMessage) -> int:
         known = self._messages.times()
         oldest = newest.key - len(known) + 1
-        return min(newest.key, max(self._key, oldest - 1) + _BATCH)
+        return min(newest.key, max(self.key, oldest - 1) + _BATCH)
 
-    def _add(self, message: StampedMessage) -> None:
-        try:
-            content = message.read()
-        except ValueError:  # The bytes do not match the type.
+    def add(self, message: StampedMessage, content: Any) -> None:
+        """Add the value in a message.
+
+        Args:
+            message: The message.
+            content: Its content, or None if it cannot be read.
+
+        Raises:
+            PlotError: The type has no such field.
+        """
+        self.key = message.key
+        if content is None:
             self.skipped += 1
             return
         try:
@@ -114,11 +141,21 @@ class StateHistory:
             self.skipped += 1  # Other objects of JSON may have the field.
             self.problem = error if self.until is None else None
             return
+        if self.until is not None and message.time < self.until:
+            self._forget_after(message.time)
         if self.until is None or self._last_text != text:
             self._changes.append(StateSpan(message.time, _shorten(text)))
             self._last_text = text
             self.total += 1
         self.until, self.problem = message.time, None
+
+    def _forget_after(self, time: int) -> None:
+        """Remove the changes at and after a time to which the topic has jumped back."""
+        self.edition += 1
+        self.until = None  # The state at the new time is a change.
+        while self._changes and self._changes[-1].time >= time:
+            self._changes.pop()
+            self.total -= 1
 
 
 def state_text(message: Any, field: FieldExpression, type_: str) -> str:
