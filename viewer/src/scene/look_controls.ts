@@ -24,7 +24,7 @@ const DIRECTION_TOLERANCE = 1e-3;
 
 export class LookControls {
   enabled = false;
-  /** Whether the camera keeps its pose relative to its frame, whatever the user does. */
+  /** Whether the user cannot move the camera, which keeps its pose relative to its frame. */
   locked = false;
   readonly position = new THREE.Vector3();
   /** Radians; a positive pitch looks down, as in RViz. */

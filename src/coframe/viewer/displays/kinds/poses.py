@@ -18,7 +18,7 @@ from coframe.viewer.displays._drawing import (
     pose_rows,
 )
 from coframe.viewer.displays._renderers import NewMessages, draw_each_message
-from coframe.viewer.displays._row import ChoiceOption, ColorOption, DisplayRow, FlagOption, NumberOption
+from coframe.viewer.displays._row import ChoiceOption, ColorOption, DisplayRow, FlagOption, NumberOption, Option
 from coframe.viewer.protocol.common import PayloadRows  # noqa: TC001 - the protocol evaluates annotations
 
 if TYPE_CHECKING:
@@ -124,7 +124,7 @@ _SHAPE = (
     NumberOption("Axes Length", 0.3, 0.001, 100.0, 0.05, "m", needs="Shape=Axes"),
     NumberOption("Axes Radius", 0.02, 0.0005, 10.0, 0.005, "m", needs="Shape=Axes"),
 )
-_ARRAY_SHAPE = (
+_ARRAY_SHAPE: tuple[Option, ...] = (
     ChoiceOption("Shape", "Arrow (3D)", ("Arrow (Flat)", "Arrow (3D)", "Axes")),
     *_SHAPE[1:3],
     NumberOption("Arrow Length", 0.3, 0.001, 100.0, 0.05, "m", needs="Shape=Arrow (Flat)"),
