@@ -12,6 +12,7 @@ import rclpy
 from rclpy.node import Node
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor, SingleThreadedExecutor
 from std_msgs.msg import String
+from std_srvs.srv import Trigger
 
 rclpy.init()
 node = Node("ender")
@@ -50,7 +51,7 @@ BLOCKED = {
     "spin_once": "while True: rclpy.spin_once(node)",
     "sleep_for": "node.get_clock().sleep_for(rclpy.duration.Duration(seconds=60))",
     "rate": "rate = node.create_rate(0.01); rate.sleep()",
-    "wait_for_service": "from std_srvs.srv import Trigger; node.create_client(Trigger, 'x').wait_for_service()",
+    "wait_for_service": "node.create_client(Trigger, 'x').wait_for_service()",
     "threads": ("thread = threading.Thread(target=lambda: rclpy.spin(node)); thread.start(); time.sleep(60)"),
 }
 
@@ -106,6 +107,20 @@ def test_signals_end_blocking_calls_without_a_traceback(ready, statement, number
         statement = statement.replace("time.sleep(60)", "thread.join()")
     script = ready(f"{NODE}\nprint('ready')\n{statement}\n")
     script.process.send_signal(number)
+    script.end()
+    assert script.errors == ""
+
+
+def test_an_interrupt_that_python_ignores_prints_no_traceback(ready):
+    script = ready(f"""{NODE}
+import os, signal, weakref
+ended = node.create_timer(60, lambda: None)
+reference = weakref.ref(ended, lambda _: os.kill(os.getpid(), signal.SIGINT))
+node.destroy_timer(ended)
+del ended
+print("ready")
+rclpy.spin(node)
+""")
     script.end()
     assert script.errors == ""
 

@@ -37,7 +37,7 @@ _EXPECTED = (KeyboardInterrupt, ExternalShutdownException, ROSInterruptException
 _options = SignalHandlerOptions.NO
 _handlers = SignalHandlers()
 _was_signalled = False
-_previous_hooks: tuple[Callable[..., Any], Callable[..., Any]] | None = None
+_previous_hooks: tuple[Callable[..., Any], Callable[..., Any], Callable[..., Any]] | None = None
 
 
 def install_signal_handlers(options: SignalHandlerOptions = SignalHandlerOptions.ALL) -> None:
@@ -112,14 +112,14 @@ def _handle(number: int, frame: FrameType | None) -> None:
 def _install_hooks() -> None:
     global _previous_hooks  # noqa: PLW0603
     if _previous_hooks is None:
-        _previous_hooks = sys.excepthook, threading.excepthook
-        sys.excepthook, threading.excepthook = _excepthook, _thread_excepthook
+        _previous_hooks = sys.excepthook, threading.excepthook, sys.unraisablehook
+        sys.excepthook, threading.excepthook, sys.unraisablehook = _excepthook, _thread_excepthook, _unraisable_hook
 
 
 def _uninstall_hooks() -> None:
     global _previous_hooks  # noqa: PLW0603
     if _previous_hooks is not None and sys.excepthook is _excepthook:
-        sys.excepthook, threading.excepthook = _previous_hooks
+        sys.excepthook, threading.excepthook, sys.unraisablehook = _previous_hooks
         _previous_hooks = None
 
 
@@ -131,3 +131,10 @@ def _excepthook(kind: type[BaseException], value: BaseException, traceback: Trac
 def _thread_excepthook(args: threading.ExceptHookArgs) -> None:
     if not (_was_signalled and isinstance(args.exc_value, _EXPECTED)) and _previous_hooks is not None:
         _previous_hooks[1](args)
+
+
+# A signal can arrive in `__del__` or in the callback of a weak reference, which each import has. Python ignores exceptions
+# there and reports them, but the signal has had its effect: the contexts are shut down.
+def _unraisable_hook(args: sys.UnraisableHookArgs) -> None:
+    if not (_was_signalled and isinstance(args.exc_value, _EXPECTED)) and _previous_hooks is not None:
+        _previous_hooks[2](args)
