@@ -575,9 +575,10 @@ def test_a_silent_server():
 
 
 @pytest.mark.usefixtures("impatient")
-def test_a_slow_server(run, monkeypatch):
+@pytest.mark.parametrize("pause", [0.05, 0.3], ids=["a byte is late", "no byte is late"])
+def test_a_slow_server(run, monkeypatch, pause):
     monkeypatch.setattr(_http, "MIN_SPEED", 1_000_000)
-    with FileServer(behavior=dripping(run)) as server:
+    with FileServer(behavior=dripping(run, pause)) as server:
         before = time.monotonic()
         assert "fewer than" in failure(server.url())
         assert time.monotonic() - before < 4

@@ -276,6 +276,8 @@ class HttpRanges:
         with _Deadline(self._socket, size) as deadline:
             while left is None or left > 0:
                 piece = answer.response.read1(_READ_BYTES if left is None else min(left, _READ_BYTES))
+                if not piece and deadline.has_passed:
+                    raise TimeoutError  # The deadline has ended the connection, not the server.
                 if not piece:
                     break
                 deadline.add(len(piece))
