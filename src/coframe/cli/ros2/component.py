@@ -38,6 +38,7 @@ if TYPE_CHECKING:
 __all__ = ["component"]
 
 _LIST_NODES = "composition_interfaces/srv/ListNodes"
+_START_TIMEOUT = 30.0  # seconds until a container has started, also on a slow machine
 _LOG_LEVELS = {"debug": 10, "info": 20, "warn": 30, "error": 40, "fatal": 50}
 component = CommandGroup(
     "component",
@@ -246,6 +247,7 @@ def standalone(
         try:
             with graph_node(spin_time) as node:
                 words = _NodeWords(package, plugin, node_name, node_namespace, log_level, rules, parameters, extra)
+                wait_until(lambda: process.poll() is not None or _is_container(node, name), _START_TIMEOUT)
                 _load(node, _check_container(node, name), words, timeout, is_quiet=False)
             process.wait()
         finally:
@@ -299,9 +301,17 @@ def _containers(node: Node) -> list[str]:
     return [name for name in names if _LIST_NODES in services.get(f"{name}/_container/list_nodes", [])]
 
 
+def _full_name(name: str) -> str:
+    return name if name.startswith("/") else f"/{name}"
+
+
+def _is_container(node: Node, name: str) -> bool:
+    return _full_name(name) in _containers(node)
+
+
 def _check_container(node: Node, name: str) -> str:
-    name = name if name.startswith("/") else f"/{name}"
-    if not wait_until(lambda: name in _containers(node)):
+    name = _full_name(name)
+    if not wait_until(lambda: _is_container(node, name)):
         fail(
             f"Unable to find container node '{one_line(name)}'",
             "coframe component list shows all containers. Start one with: coframe run rclpy_components "

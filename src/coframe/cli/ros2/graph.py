@@ -145,7 +145,7 @@ def graph_node(
 
 
 def _wait_for_nodes(participant: Participant) -> None:
-    """Wait for the nodes of processes that have been discovered, at most for PATIENCE."""
+    """Wait for the nodes of processes that have been discovered, at most for ENDPOINT_TIMEOUT."""
     if not (unnamed := participant.unnamed_participants()):
         return
     print(f"Waiting for the nodes of {_processes_text(unnamed)}.", file=sys.stderr)
@@ -174,9 +174,9 @@ def fail_once(text: str) -> NoReturn:
     fail(text)
 
 
-def wait_until(condition: Callable[[], Any]) -> Any:
-    """Return the first true result of a function, or its last result after PATIENCE."""
-    deadline = time.monotonic() + ENDPOINT_TIMEOUT
+def wait_until(condition: Callable[[], Any], timeout: float = ENDPOINT_TIMEOUT) -> Any:
+    """Return the first true result of a function, or its last result after the timeout in seconds."""
+    deadline = time.monotonic() + timeout
     while not (result := condition()) and time.monotonic() < deadline:
         time.sleep(_PERIOD)
     return result
