@@ -45,7 +45,7 @@ REFRESH = 0.1  # seconds
 RESERVED_LINES = 6  # above and below the rows of the tree
 # All of these frames exist once every node has published.
 EXPECTED_FRAMES = ("world", "end_effector", "camera_link", "lidar_link")
-START_TIMEOUT = 20.0
+START_TIMEOUT = 60.0  # seconds; a slow machine compiles all modules when it starts the nodes for the first time
 ARM_XACRO = Path(coframe.lab.__file__).with_name("two_link_arm.urdf.xacro")
 
 
@@ -170,11 +170,13 @@ def _duplicate_nodes(ros: Connection, nodes: Launcher) -> list[str]:
 
 def _watch(buffer: Buffer, nodes: Launcher, start: float, duration: float | None, complete: list[str]) -> None:
     pause = threading.Event()
-    while duration is None or time.monotonic() - start < duration:
+    is_complete = False
+    while not is_complete or duration is None or time.monotonic() - start < duration:
+        is_complete = all(frame in buffer for frame in complete)
         failed = nodes.failed()
         if failed:
             fail(f"node {failed.name} ended with exit code {failed.exit_code}:", details=failed.last_lines)
-        if time.monotonic() - start > START_TIMEOUT and not all(frame in buffer for frame in complete):
+        if time.monotonic() - start > START_TIMEOUT and not is_complete:
             missing = ", ".join(frame for frame in complete if frame not in buffer)
             fail(
                 f"no transforms to these frames received after {START_TIMEOUT:.0f} s: {missing}",
