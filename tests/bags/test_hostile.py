@@ -19,7 +19,7 @@ import coframe
 from coframe.bags import storage
 from coframe.messages import find, serialize
 
-_LIMIT = 10  # seconds; each takes less than one on an idle machine
+_LIMIT = 10  # seconds of a processor; each takes less than one
 
 
 def with_schema(text, type_="lab/msg/Big", topic="/big"):

@@ -29,6 +29,7 @@ constexpr int kReaders = 4, kWriters = 2;
 constexpr int kDepth = 40;           // edges of the chain
 constexpr int kParents = 3;          // parents of the reparented frame
 constexpr int kMaxNewFrames = 1000;  // per round
+constexpr std::size_t kRun = 100;    // samples of an edge that are inserted at once
 constexpr Stamp kSecond = 1'000'000'000, kTick = 1'000'000, kStart = 1000 * kSecond;
 constexpr Stamp kParentDuration = 50 * kTick;  // how long the reparented frame keeps a parent
 constexpr double kTolerance = 1e-9;
@@ -242,7 +243,7 @@ class Writer {
   void insert_run() {
     const int child = 1 + static_cast<int>(rng_() % kDepth);
     if (edge_is_static(child)) return;
-    std::vector<Stamp> stamps(100);
+    std::vector<Stamp> stamps(kRun);
     std::vector<double> rows;
     for (Stamp& stamp : stamps) {
       stamp = next_stamp();
@@ -491,8 +492,8 @@ class Reader {
     }
     for (const EdgeSummary& edge : buffer_.edges()) {
       const FrameSummary& frame = edge.frame;
-      // A sample is visible shortly before it is counted.
-      expect(frame.is_static || edge.stored + 1 >= frame.samples, "a frame has more samples than were stored",
+      // The samples of an insertion are visible shortly before they are counted.
+      expect(frame.is_static || edge.stored + kRun >= frame.samples, "a frame has more samples than were stored",
              frame.name);
     }
     statistics_.count_success(Kind::frames);

@@ -117,7 +117,7 @@ def test_demo_shows_the_complete_tree_and_stops_its_nodes(processes):
     processes.start("other", "python", "-m", "coframe.lab.simulated_lidar")
     received = processes.observe(1.0, "/scan_base_frame:sensor_msgs/msg/PointCloud2:volatile")
     assert len(received["/scan_base_frame"]) > 1
-    eventually(lambda: not processes.running("demo"), lambda: processes.text("demo"))
+    eventually(lambda: not processes.running("demo"), lambda: processes.text("demo"), patience=60.0)
     code, text = processes.end("demo")
     assert code == 0, text
     for frame in ("world", "map", "odom", "base_link", "link1", "link2", "end_effector", "camera_link", "lidar_link"):

@@ -67,12 +67,17 @@ def test_parameters_are_saved_to_a_file_named_after_the_node(run, tmp_path):
     assert "cannot be written" in run("param", "dump", NODE, "--output-dir", tmp_path / "absent", code=1)
 
 
-def test_a_table_of_several_topics(lines_of):
+def is_near_50_hz(row):
+    return 30.0 < float(row.split()[1]) < 70.0
+
+
+def test_a_table_of_several_topics(lines_of, eventually):
     header, rule, first, second = lines_of(4, "topic", "hz", "/chatter", "/point")
     assert header.split() == ["topic", "rate", "min_delta", "max_delta", "std_dev", "window"]
     assert set(rule.strip()) == {"="}
     assert sorted(line.split()[0] for line in (first, second)) == ["/chatter", "/point"]
-    assert 30.0 < float(first.split()[1]) < 70.0
+    if not is_near_50_hz(first):  # a busy machine may pause for a second
+        eventually(lambda: is_near_50_hz(lines_of(3, "topic", "hz", "/chatter", "/point")[2]))
     subscribed, header, _, first, _ = lines_of(5, "topic", "bw", "--all")
     assert "/chatter" in subscribed
     assert "_action" not in subscribed
@@ -103,7 +108,9 @@ def test_publishing_the_messages_of_a_file(run, graph, tmp_path):
     assert "publishing #1: std_msgs.msg.String(data='first')" in output
     assert "publishing #2: std_msgs.msg.String(data='second')" in output
     assert "#3" not in output
-    assert [graph.stdout.readline() for _ in range(2)] == ["first\n", "second\n"]
+    received = iter(graph.stdout.readline, "")
+    assert "first\n" in received  # after the messages of other tests
+    assert next(received) == "second\n"
     absent = run("topic", "pub", "/commands", "std_msgs/msg/String", "--yaml-file", tmp_path / "none", code=1)
     assert "cannot be read" in absent
 
