@@ -133,8 +133,8 @@ def _thread_excepthook(args: threading.ExceptHookArgs) -> None:
         _previous_hooks[1](args)
 
 
-# A signal can arrive in `__del__` or in the callback of a weak reference, which each import has. Python ignores exceptions
-# there and reports them, but the signal has had its effect: the contexts are shut down.
+# A signal can arrive in `__del__` or in the callback of a weak reference, which each import has. Python ignores
+# exceptions there and reports them, but the signal has had its effect: the contexts are shut down.
 def _unraisable_hook(args: sys.UnraisableHookArgs) -> None:
     if not (_was_signalled and isinstance(args.exc_value, _EXPECTED)) and _previous_hooks is not None:
         _previous_hooks[2](args)
