@@ -585,6 +585,20 @@ def test_a_slow_server(run, monkeypatch, pause):
 
 
 @pytest.mark.usefixtures("impatient")
+def test_a_file_of_unknown_size_that_does_not_begin():
+    def answer(handler):
+        handler.send_response(200)
+        handler.end_headers()
+        handler.wfile.flush()
+        time.sleep(2)
+        handler.close_connection = True
+        return True
+
+    with FileServer(behavior=answer) as server:
+        assert "fewer than" in failure(server.url())
+
+
+@pytest.mark.usefixtures("impatient")
 def test_slow_headers():
     def answer(handler):
         with contextlib.suppress(OSError):
