@@ -264,7 +264,7 @@ def _run_demo(tmp_path_factory, domain) -> Iterator[Demo]:
     try:
         with pytest.MonkeyPatch.context() as patch:
             patch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-            with coframe.connect("browser_test", domain=domain) as ros:
+            with coframe.connect("browser_test", domain=domain, cache="60s") as ros:
                 yield Demo(process, _address(process, output), domain, ros)
     finally:
         process.send_signal(signal.SIGINT)

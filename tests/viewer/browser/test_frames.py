@@ -4,6 +4,7 @@
 import shlex
 
 import numpy as np
+import pytest
 
 import coframe
 from coframe.cli.static_arguments import parse
@@ -55,6 +56,19 @@ def test_drawn_poses_equal_buffer_lookups_for_any_fixed_frame(lab, demo):
         lab.assert_equals_buffer(demo.ros.buffer)
 
 
+@pytest.fixture
+def paused_lab(demo, view, open_page):
+    """The page with the last transforms of the demo, and their buffer.
+
+    The demo itself keeps ten seconds of data, which is too short for all clicks on a busy machine.
+    """
+    demo.ros.buffer.wait("lidar_link", "camera_link", timeout="60s")
+    buffer = demo.ros.buffer.snapshot()
+    page = open_page(view(buffer, fixed="world").url).drawn().pause()
+    page.step("ArrowLeft", -1)  # not all frames have data up to the end
+    return page, buffer
+
+
 LABELS = """() => [...document.querySelectorAll('#labels .label')]
     .filter((label) => coframe.frames[label.textContent])
     .map((label) => {
@@ -64,8 +78,8 @@ LABELS = """() => [...document.querySelectorAll('#labels .label')]
     })"""
 
 
-def test_labels_are_drawn_at_their_frames(lab):
-    lab.pause()
+def test_labels_are_drawn_at_their_frames(paused_lab):
+    lab, _ = paused_lab
     lab.raw.select_option("#fixed", "base_link")
     lab.until("coframe.frames.base_link.position.every((x) => x === 0)")
     lab.raw.click("#overlay button:text-is('Top')")
@@ -99,14 +113,9 @@ def test_hide_solo_and_search(lab):
     assert "No frame name contains “missing”" in lab.text("#panel .empty")
 
 
-def test_the_inspector_shows_the_pose_in_every_notation(demo, view, open_page):
-    demo.ros.buffer.wait("lidar_link", "camera_link", timeout="60s")
-    # The demo keeps ten seconds of data, which is too short for all clicks on a busy machine.
-    buffer = demo.ros.buffer.snapshot()
-    lab = open_page(view(buffer, fixed="world").url).drawn()
+def test_the_inspector_shows_the_pose_in_every_notation(paused_lab):
+    lab, buffer = paused_lab
     lab.raw.context.grant_permissions(["clipboard-read", "clipboard-write"])
-    lab.pause()
-    lab.step("ArrowLeft", -1)  # not all frames have data up to the end
     _, stamp, _ = lab.drawn_frames()
     lab.row("camera_link").locator(".name").click()
     lab.raw.select_option("#inspector select", "lidar_link")
