@@ -9,8 +9,10 @@ NATIVE := $(shell find native -name '*.cpp' -o -name '*.hpp' -o -name '*.inc') C
 # For scripts that need the standard library only.
 ANY_PYTHON = $(if $(wildcard $(BIN)/python),$(BIN)/python,python3)
 
-# Many processes import the same modules, so these are compiled once; the files are not next to the sources.
-PYTEST := env -u PYTHONDONTWRITEBYTECODE PYTHONPYCACHEPREFIX=$(CURDIR)/build/pycache $(BIN)/python -m pytest
+# Many processes import the same modules, so these are compiled once; the files are not next to the sources. The processes
+# share the cores, so NumPy uses one thread in each.
+PYTEST := env -u PYTHONDONTWRITEBYTECODE PYTHONPYCACHEPREFIX=$(CURDIR)/build/pycache OPENBLAS_NUM_THREADS=1 \
+	$(BIN)/python -m pytest
 
 # build-system.requires of pyproject.toml.
 BUILD_TOOLS = $(shell sed -n 's/^requires = \[\(.*\)\]/\1/p' pyproject.toml | sed 's/", "/" "/g')
@@ -55,7 +57,7 @@ demo: $(DEMO_STAMP) ## show the lab's moving transform tree, live in the browser
 	@$(BIN)/coframe demo $(ARGS)
 
 test: $(STAMP) ## run the test suite (about seven minutes on two cores)
-	$(PYTEST) --numprocesses 4 --dist loadfile --no-loadscope-reorder $(ARGS)
+	$(PYTEST) --numprocesses 6 --dist loadfile --no-loadscope-reorder $(ARGS)
 
 test-browser: $(STAMP) ## run the tests that look at the viewer's page in Chromium (four minutes on two cores)
 	$(PYTEST) -m "browser and not slow" --numprocesses 4 --dist loadfile tests/viewer/browser $(ARGS)

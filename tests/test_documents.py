@@ -239,6 +239,8 @@ def test_docstring_examples(name):
     if name == "coframe":
         for public in coframe.__all__:
             getattr(coframe, public)  # doctest finds functions that are imported on first use only after that
+    elif ">>>" not in Path(module.__file__).read_text("utf-8"):
+        return  # the search for docstrings takes longer than the import
     assert doctest.testmod(module).failed == 0
 
 

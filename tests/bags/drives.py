@@ -139,15 +139,29 @@ def default(type_):
     return np.empty(0, np.uint8) if detail[0][0].name == "BASE" and detail[0][1][0] == "uint8" else []
 
 
+_files = {}  # what has been written, by the name of the folder, the drive and the format
+
+
 def write(path, drive, plugin=StoragePlugin.MCAP):
     """Write the drive as a folder of rosbag2; return its path."""
+    key = path.name, repr(drive), plugin
+    if key not in _files:
+        _record(path, drive, plugin)
+        _files[key] = {file.name: file.read_bytes() for file in path.iterdir()}
+        return path
+    path.mkdir(parents=True)
+    for name, data in _files[key].items():
+        (path / name).write_bytes(data)
+    return path
+
+
+def _record(path, drive, plugin):
     with Rosbag2Writer(path, version=9, storage_plugin=plugin) as writer:
         connections = {}
         for topic, at, message in events(drive):
             if topic not in connections:
                 connections[topic] = writer.add_connection(topic, message.__msgtype__, typestore=store)
             writer.write(connections[topic], at, store.serialize_cdr(message, message.__msgtype__))
-    return path
 
 
 def contents(path):

@@ -83,12 +83,13 @@ def test_packages(execute, tmp_path, write):
     assert "hello from json" in execute("launch", "greeter", "greet.launch.xml", **variables)
 
 
+@pytest.mark.slow  # the lab starts its nodes in the same way
 def test_the_demo(execute):
     output = execute("demo", "--no-browser", "--port", "0", "--duration", "3")
     assert "base_link" in output
 
 
-@pytest.mark.parametrize("step", ["run", "break", "check"])
+@pytest.mark.parametrize("step", ["run", pytest.param("break", marks=pytest.mark.slow), "check"])
 def test_the_lab(execute, tmp_path, step):
     folder = tmp_path / "student"
     if step == "break":

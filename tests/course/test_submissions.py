@@ -130,13 +130,13 @@ def test_a_grade_says_what_a_special_file_is(name, tmp_path):
 
 
 def test_names_of_folders_are_text(classroom):
-    for name in ("new\nline", "=cmd()", "a:b", "back\\slash", "-o"):
+    for name in ("=cmd()\nline", "a:b\\slash", "-o"):
         shutil.copytree(classroom / "alice", classroom / name)
     if sys.platform == "linux":
         (classroom / os.fsdecode(b"\xff\xfe")).mkdir()
     found = grades(classroom)
-    assert [points for points, _ in found.values()].count(10) == 6
-    assert len(found) == 8 if sys.platform == "linux" else 7
+    assert [points for points, _ in found.values()].count(10) == 4
+    assert len(found) == 6 if sys.platform == "linux" else 5
 
 
 def test_the_search_for_files_is_bounded(classroom, tmp_path):

@@ -58,7 +58,12 @@ def answer(node, client):
 
 @pytest.mark.parametrize(
     ("request_bytes", "is_attached"),
-    [(NO_REQUEST, True), (EMPTY_REQUEST, False), (DAMAGED_REQUEST, True), (EMPTY_REQUEST, True)],
+    [
+        pytest.param(NO_REQUEST, True, marks=pytest.mark.slow),
+        pytest.param(EMPTY_REQUEST, False, marks=pytest.mark.slow),
+        (DAMAGED_REQUEST, True),
+        (EMPTY_REQUEST, True),
+    ],
     ids=["no CDR", "no attachment", "damaged", "valid from a program that is not a node"],
 )
 def test_a_flood_of_requests(client, ros_peer, child, eventually, request_bytes, is_attached):

@@ -23,18 +23,18 @@ playwright = pytest.importorskip("playwright.sync_api", reason="the page is show
 
 SETTLING_TIMEOUT = 5.0  # seconds
 TIMEOUT = 20.0  # seconds; the machine may be busy
-START_TIMEOUT = 60.0  # seconds; the process starts at the same time as a browser
+START_TIMEOUT = 60.0  # seconds; processes and pages start at the same time
 SECOND = 1_000_000_000
 LAB_FRAMES = 11
-# In this file the page is tested in every run of the suite; the others take minutes.
-ALWAYS = "test_frames.py"
+# The test of the page that is in every run of the suite; the others take minutes.
+ALWAYS = "test_drawn_poses_equal_buffer_lookups_for_any_fixed_frame"
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """Leave the tests of this folder to `make test-browser`, but for one file."""
+    """Leave the tests of this folder to `make test-browser`, except one."""
     for item in items:
-        if item.path.parent == Path(__file__).parent and item.path.name != ALWAYS:
+        if item.path.parent == Path(__file__).parent and item.name != ALWAYS:
             item.add_marker("browser")
 
 
@@ -58,7 +58,7 @@ class Page:
         self.raw.set_default_timeout(TIMEOUT * 1000)
         self.raw.on("console", self._record_error)
         self.raw.on("pageerror", lambda error: self.errors.append(str(error)))
-        self.raw.goto(url)
+        self.raw.goto(url, timeout=START_TIMEOUT * 1000)
 
     def _record_error(self, message):
         if message.type == "error":
@@ -72,9 +72,9 @@ class Page:
         """Return the value of a JavaScript expression, or of a function of one argument."""
         return self.raw.evaluate(script, argument)
 
-    def until(self, script, argument=None):
+    def until(self, script, argument=None, timeout=TIMEOUT):
         """Wait until a JavaScript expression is true, and return its value."""
-        return self.wait(lambda: self._evaluate_if_started(script, argument), script)
+        return self.wait(lambda: self._evaluate_if_started(script, argument), script, timeout)
 
     def _evaluate_if_started(self, script, argument):
         try:
@@ -84,9 +84,9 @@ class Page:
                 return None
             raise
 
-    def wait(self, condition, what="a condition"):
+    def wait(self, condition, what="a condition", timeout=TIMEOUT):
         """Wait until a Python function returns a true value, and return the value."""
-        deadline = time.monotonic() + TIMEOUT
+        deadline = time.monotonic() + timeout
         while not (found := condition()):
             if time.monotonic() > deadline:
                 raise AssertionError(
@@ -97,7 +97,9 @@ class Page:
 
     def drawn(self):
         """Wait until frames are drawn, and return the page."""
-        self.until("window.coframe && coframe.updates > 0 && Object.keys(coframe.frames).length > 0")
+        self.until(
+            "window.coframe && coframe.updates > 0 && Object.keys(coframe.frames).length > 0", timeout=START_TIMEOUT
+        )
         return self
 
     def shows(self, frame):

@@ -274,9 +274,10 @@ def test_settings_of_any_form_leave_the_page_usable(view, open_page, settings):
     viewer = view(small_buffer(), fixed="map")
     stored = [{"name": f"coframe.{key}", "value": json.dumps(value)} for key, value in settings.items()]
     storage = {"cookies": [], "origins": [{"origin": viewer.url.rstrip("/"), "localStorage": stored}]}
-    page = open_page(f'{viewer.url}#view={{"class":"Orbit","options":null}}&layout=[1]', storage_state=storage).drawn()
+    page = open_page(f'{viewer.url}#view={{"class":"Orbit","options":null}}&layout=[1]', storage_state=storage)
     notes = page.wait(lambda: len(page.texts("#toasts > *")) > 1 and page.texts("#toasts > *"), "both notes")
     assert [part for part in ("view", "layout") if f"The {part} in the address" in "".join(notes)] == ["view", "layout"]
+    page.drawn()
     if settings is MIXED_SETTINGS:
         page.until("document.querySelector('#pane-plots')?.hidden === false && coframe.panes.length === 1")
         page.tab("displays")
