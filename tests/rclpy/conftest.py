@@ -122,7 +122,7 @@ class Script:
         """The output on stderr so far."""
         return "".join(self._errors)
 
-    def end(self, timeout: float = 10.0) -> int:
+    def end(self, timeout: float = 30.0) -> int:
         """Wait for the end of the program and return its exit code."""
         code = self.process.wait(timeout)
         for thread in self._threads:

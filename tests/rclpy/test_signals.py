@@ -125,6 +125,26 @@ rclpy.spin(node)
     assert script.errors == ""
 
 
+def test_an_interrupt_while_a_thread_of_a_pool_starts_ends_the_program(ready):
+    script = ready(f"""{NODE}
+import os, signal
+start = threading.Thread.start
+
+def interrupt(thread):
+    threading.Thread.start = start
+    thread.start()
+    os.kill(os.getpid(), signal.SIGINT)
+
+executor = MultiThreadedExecutor()
+executor.add_node(node)
+threading.Thread.start = interrupt
+print("ready")
+executor.spin()
+""")
+    assert script.end() in {130, -signal.SIGINT}
+    assert script.errors == ""
+
+
 def test_other_exceptions_keep_their_traceback(ready):
     script = ready(f"{NODE}\nprint('ready')\ntry:\n    rclpy.spin(node)\nexcept KeyboardInterrupt:\n    1 / 0\n")
     script.process.send_signal(signal.SIGINT)

@@ -458,7 +458,7 @@ class MultiThreadedExecutor(Executor):
         if num_threads is not None and num_threads <= 0:
             raise ValueError("max_workers must be greater than 0")
         self.__num_threads = max(os.cpu_count() or 4, 2) if num_threads is None else num_threads
-        self.__pool = ThreadPoolExecutor(self.__num_threads, thread_name_prefix=_THREAD_NAME)
+        self.__pool = self.__new_pool()
         self.__free = self.__num_threads
         self.__free_lock = threading.Lock()
         self.__failed: deque[Task[Any]] = deque()
@@ -511,6 +511,15 @@ class MultiThreadedExecutor(Executor):
         except RuntimeError as error:  # The interpreter is shutting down.
             task.cancel()
             raise ExternalShutdownException from error
+        except BaseException:
+            # Ctrl-C may have interrupted the start of a thread. The pool does not know this thread, so that nothing
+            # would end it when the program exits, except the end of the pool.
+            self.__pool.shutdown(wait=False)
+            self.__pool = self.__new_pool()
+            raise
+
+    def __new_pool(self) -> ThreadPoolExecutor:
+        return ThreadPoolExecutor(self.__num_threads, thread_name_prefix=_THREAD_NAME)
 
     def __run_in_pool(self, task: Task[Any]) -> None:
         try:
