@@ -91,6 +91,7 @@ class HttpRanges:
     def __init__(self, url: str) -> None:
         self.name = remove_credentials(url)
         self._connection: http.client.HTTPConnection | None = None
+        self._response: http.client.HTTPResponse | None = None  # keeps the socket open
         self._socket: socket.socket | None = None
         self._process = os.getpid()
         self._origin = self._parse(url)
@@ -185,9 +186,11 @@ class HttpRanges:
 
     def close(self) -> None:
         """Close the connection; a read opens it again."""
-        connection, self._connection = self._connection, None
-        if connection is not None and self._process == os.getpid():
-            connection.close()
+        opened = self._response, self._connection
+        self._response = self._connection = None
+        for each in opened if self._process == os.getpid() else ():
+            if each is not None:
+                each.close()
 
     def _try_request(self, function: Callable[[], Any]) -> Any:
         """Call a function; repeat it after errors that may be temporary."""
@@ -290,7 +293,8 @@ class HttpRanges:
 
     def _send(self, headers: dict[str, str]) -> http.client.HTTPResponse:
         if self._process != os.getpid():  # A child process must not use the connection of its parent.
-            self._connection, self._process = None, os.getpid()
+            self._response = self._connection = None
+            self._process = os.getpid()
         url = self._url
         proxy = _find_proxy(url)
         if user := _authorization(url):
@@ -308,7 +312,8 @@ class HttpRanges:
         self._socket = connection.sock  # The connection forgets it if the server closes it after the response.
         with _Deadline(self._socket, 0):
             connection.request("GET", target, headers=headers)
-            return connection.getresponse()
+            self._response = connection.getresponse()
+            return self._response
 
     def _parse(self, url: str) -> SplitResult:
         """Return the parts of a URL."""
