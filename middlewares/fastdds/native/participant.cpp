@@ -11,6 +11,8 @@
 #include <cstring>
 #include <random>
 
+#include "complete_transport.hpp"
+
 namespace coframe::fastdds {
 
 const coframe_middleware* core = nullptr;
@@ -52,7 +54,7 @@ std::uint16_t free_port() {
   return found ? ntohs(address.sin_port) : 0;
 }
 
-void set_own_transports(dds::DomainParticipantQos& qos) {
+void set_own_transports(dds::DomainParticipantQos& qos, const std::shared_ptr<Completion>& completion) {
   // Participants of each peer that are looked for: all that a domain has ports for.
   constexpr std::uint32_t kPeers = 120;
   // Messages that are on their way to other processes. By default, an image of 1 MB does not fit, and most of it is
@@ -67,7 +69,7 @@ void set_own_transports(dds::DomainParticipantQos& qos) {
   }
   auto udp = std::make_shared<transport::UDPv4TransportDescriptor>();
   udp->maxInitialPeersRange = kPeers;
-  transports.user_transports.push_back(std::move(udp));
+  transports.user_transports.push_back(std::make_shared<CompleteTransportDescriptor>(std::move(udp), completion));
 }
 
 // An address that no other participant expects, so that none is received. Fast DDS 3 also ignores those that it finds.
@@ -84,7 +86,8 @@ void add_peer(dds::DomainParticipantQos& qos, const std::string& address) {
   qos.wire_protocol().builtin.initialPeersList.push_back(peer);
 }
 
-void set_discovery(dds::DomainParticipantQos& qos, const ParticipantOptions& options) {
+void set_discovery(dds::DomainParticipantQos& qos, const ParticipantOptions& options,
+                   const std::shared_ptr<Completion>& completion) {
   auto& builtin = qos.wire_protocol().builtin;
   const rtps::Locator_t any;
   if (options.range == kOff) {
@@ -100,7 +103,7 @@ void set_discovery(dds::DomainParticipantQos& qos, const ParticipantOptions& opt
     add_peer(qos, "239.255.0.1");
   }
   // The user's configuration comes first.
-  if (options.profiles.empty() && std::getenv("FASTDDS_BUILTIN_TRANSPORTS") == nullptr) set_own_transports(qos);
+  if (options.profiles.empty() && std::getenv("FASTDDS_BUILTIN_TRANSPORTS") == nullptr) set_own_transports(qos, completion);
 }
 
 // Prints errors as one plain line each. Without it, Fast DDS writes them in colors, and reports descriptions of types
@@ -122,7 +125,7 @@ void print_errors_plainly() {
   });
 }
 
-dds::DomainParticipantQos make_qos(const ParticipantOptions& options) {
+dds::DomainParticipantQos make_qos(const ParticipantOptions& options, const std::shared_ptr<Completion>& completion) {
   auto* factory = dds::DomainParticipantFactory::get_instance();
   // Before load_profiles(), which makes the default profile of the file that of participants.
   if (!options.profiles.empty() && !is_ok(factory->load_XML_profiles_file(options.profiles))) {
@@ -137,7 +140,7 @@ dds::DomainParticipantQos make_qos(const ParticipantOptions& options) {
   builtin.writerHistoryMemoryPolicy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   // How often a client asks a discovery server for what it has not received yet.
   builtin.discovery_config.discoveryServer_client_syncperiod = to_duration(100'000'000);
-  set_discovery(qos, options);
+  set_discovery(qos, options, completion);
   for (const auto& [name, value] : options.properties) qos.properties().properties().emplace_back(name, value);
   return qos;
 }
@@ -162,11 +165,6 @@ template <class Entity>
 Entity* created(Entity* entity, const char* what) {
   if (entity == nullptr) throw Error(std::string("could not ") + what);
   return entity;
-}
-
-// Fast DDS writes the host and the process to the beginning of a GUID.
-bool are_in_one_process(const rtps::GUID_t& one, const rtps::GUID_t& other) {
-  return std::memcmp(one.guidPrefix.value, other.guidPrefix.value, 8) == 0;
 }
 
 Guid participant_of(const rtps::GUID_t& guid) {
@@ -230,6 +228,11 @@ Handle handle_of(const rtps::GUID_t& guid) {
   return mix(mix(halves[0] ^ seed) ^ halves[1]);
 }
 
+// Fast DDS writes the host and the process to the beginning of a GUID.
+bool are_in_one_process(const rtps::GUID_t& one, const rtps::GUID_t& other) {
+  return std::memcmp(one.guidPrefix.value, other.guidPrefix.value, 8) == 0;
+}
+
 bool forked() { return is_forked; }
 
 void check_not_forked() {
@@ -258,11 +261,13 @@ std::vector<EndpointChange> EndpointChanges::take() {
 Participant::Participant(const ParticipantOptions& options, void* changed) : options_(options), changed_(changed) {
   check_not_forked();
   print_errors_plainly();
-  const dds::DomainParticipantQos qos = make_qos(options);
+  const auto completion = std::make_shared<Completion>();
+  const dds::DomainParticipantQos qos = make_qos(options, completion);
   // The listener receives discovery, and nothing about endpoints.
   participant_ = created(dds::DomainParticipantFactory::get_instance()->create_participant(options.domain, qos, this,
                                                                                            dds::StatusMask::none()),
                          "create a participant");
+  completion->set();
   guard_exit();
 }
 

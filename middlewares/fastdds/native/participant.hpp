@@ -32,6 +32,7 @@ inline constexpr bool kSharesMemory = false;
 Guid bytes_of(const rtps::GUID_t& guid);
 rtps::GUID_t guid_of(const Guid& bytes);
 Handle handle_of(const rtps::GUID_t& guid);
+bool are_in_one_process(const rtps::GUID_t& one, const rtps::GUID_t& other);
 
 // An operation of Fast DDS that failed.
 struct Error : std::runtime_error {

@@ -17,6 +17,7 @@ namespace {
 constexpr std::size_t kHeaderSize = 4;
 constexpr std::size_t kMinBlockSize = 64'000;           // larger messages do not fit into one packet
 constexpr std::int64_t kClosingPatience = 200'000'000;  // nanoseconds
+constexpr std::int64_t kHistoryPatience = 500'000'000;  // nanoseconds, at most once per reader
 
 // Readers learn from heartbeats which messages they have missed. They are sent as long as acknowledgements are
 // outstanding; by default every 3 s, when publishers of transforms no longer keep the messages.
@@ -64,6 +65,7 @@ Writer::Writer(std::shared_ptr<Participant> participant, std::string topic, std:
       // Later readers, and those that have to wait, need messages that Fast DDS itself keeps.
       shares_blocks_(participant_->shares_blocks() && !qos.transient_local && !qos.keep_all &&
                      qos.lifespan_ns == kInfinite),
+      is_latched_(qos.transient_local && qos.reliable && !qos.keep_all),
       depth_(static_cast<std::size_t>(std::max(qos.depth, 1))),
       events_(on_change) {
   check_not_forked();
@@ -93,6 +95,14 @@ void Writer::close() noexcept {
   participant->remove_own(participant->writers(), guid_);
   const std::lock_guard blocks_lock(blocks_mutex_);
   blocks_.reset();
+}
+
+void Writer::on_publication_matched(dds::DataWriter* writer, const dds::PublicationMatchedStatus& status) {
+  const rtps::GUID_t reader = rtps::iHandle2GUID(status.last_subscription_handle);
+  if (is_latched_ && status.current_count_change > 0 && are_in_one_process(reader, writer->guid())) {
+    has_late_reader_ = true;
+  }
+  events_.add_matched(status, status.last_subscription_handle);
 }
 
 dds::DataWriter& Writer::open() const {
@@ -153,7 +163,12 @@ std::optional<std::int64_t> Writer::send_in_block(std::span<const coframe_part> 
   return number;
 }
 
+void Writer::deliver_history() {
+  if (has_late_reader_.exchange(false)) open().wait_for_acknowledgments(to_duration(kHistoryPatience));
+}
+
 std::int64_t Writer::send(Outgoing& message, const rtps::SampleIdentity* related) {
+  deliver_history();
   dds::DataWriter& writer = open();
   rtps::WriteParams params;
   if (related != nullptr) params.related_sample_identity(*related);

@@ -2,6 +2,7 @@
 // Publishes serialized messages.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -42,9 +43,7 @@ class Writer final : dds::DataWriterListener {
   bool wait_for_acks(std::int64_t timeout_ns);
 
  private:
-  void on_publication_matched(dds::DataWriter*, const dds::PublicationMatchedStatus& status) override {
-    events_.add_matched(status, status.last_subscription_handle);
-  }
+  void on_publication_matched(dds::DataWriter*, const dds::PublicationMatchedStatus& status) override;
   void on_offered_deadline_missed(dds::DataWriter*, const DeadlineMissedStatus& status) override {
     events_.add_total(StatusEvents::kDeadlineMissed, status);
   }
@@ -55,6 +54,9 @@ class Writer final : dds::DataWriterListener {
     events_.add_total(StatusEvents::kLiveliness, status);
   }
   dds::DataWriter& open() const;
+  // The readers of this process that were matched since the last message receive the latched ones first, which a new
+  // message may replace. Fast DDS sends them on a thread of its own.
+  void deliver_history();
   std::int64_t send(Outgoing& message, const rtps::SampleIdentity* related);
   // Sends a reference to the message in a block. Returns nothing if a reader needs the message itself.
   std::optional<std::int64_t> send_in_block(std::span<const coframe_part> parts, std::size_t size);
@@ -65,12 +67,14 @@ class Writer final : dds::DataWriterListener {
   const std::string topic_, type_;
   const bool checks_transforms_;
   const bool shares_blocks_;
+  const bool is_latched_;
   const std::size_t depth_;
   StatusEvents events_;
   mutable std::shared_mutex closing_;  // held by users of the writer, and exclusively while it is closed
   dds::Publisher* publisher_ = nullptr;
   dds::DataWriter* writer_ = nullptr;
   rtps::GUID_t guid_;
+  std::atomic<bool> has_late_reader_ = false;  // one of this process, which was matched since the last message
   std::shared_ptr<TopicReaders> readers_;
   mutable std::mutex blocks_mutex_;  // protects the member below
   std::optional<BlockPool> blocks_;
