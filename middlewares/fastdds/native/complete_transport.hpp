@@ -42,24 +42,20 @@ class Completion {
   bool complete_ = false;
 };
 
-class CompleteTransportDescriptor final : public transport::ChainingTransportDescriptor {
- public:
-  CompleteTransportDescriptor(std::shared_ptr<transport::TransportDescriptorInterface> wrapped,
-                              std::shared_ptr<Completion> participant)
-      : ChainingTransportDescriptor(std::move(wrapped)), participant_(std::move(participant)) {}
-
-  transport::TransportInterface* create_transport() const override;
-
- private:
-  std::shared_ptr<Completion> participant_;
-};
-
 class CompleteTransport final : public transport::ChainingTransport {
  public:
-  CompleteTransport(const CompleteTransportDescriptor& descriptor, std::shared_ptr<Completion> participant)
-      : ChainingTransport(descriptor), descriptor_(descriptor), participant_(std::move(participant)) {}
+  CompleteTransport(std::shared_ptr<transport::TransportDescriptorInterface> wrapped,
+                    std::shared_ptr<Completion> participant)
+      : ChainingTransport(Wrapped(std::move(wrapped))), participant_(std::move(participant)) {}
 
-  transport::TransportDescriptorInterface* get_configuration() override { return &descriptor_; }
+  transport::TransportDescriptorInterface* get_configuration() override {
+    return low_level_transport_->get_configuration();
+  }
+
+  // What is sent does not pass through this object.
+  bool OpenOutputChannel(transport::SendResourceList& senders, const rtps::Locator_t& address) override {
+    return low_level_transport_->OpenOutputChannel(senders, address);
+  }
 
   void receive(transport::TransportReceiverInterface* next, const rtps::octet* bytes, std::uint32_t size,
                const rtps::Locator_t& to, const rtps::Locator_t& from) override {
@@ -70,27 +66,41 @@ class CompleteTransport final : public transport::ChainingTransport {
     next->OnDataReceived(bytes, size, to, from);
   }
 
+ private:
+  struct Wrapped final : transport::ChainingTransportDescriptor {
+    using ChainingTransportDescriptor::ChainingTransportDescriptor;
+    transport::TransportInterface* create_transport() const override { return nullptr; }
+  };
+
 #if COFRAME_FASTDDS_3
-  bool send(rtps::SenderResource* wrapped, const std::vector<transport::NetworkBuffer>& buffers, std::uint32_t size,
-            rtps::LocatorsIterator* begin, rtps::LocatorsIterator* end,
-            const std::chrono::steady_clock::time_point& deadline) override {
-    return wrapped->send(buffers, size, begin, end, deadline);
+  bool send(rtps::SenderResource*, const std::vector<transport::NetworkBuffer>&, std::uint32_t, rtps::LocatorsIterator*,
+            rtps::LocatorsIterator*, const std::chrono::steady_clock::time_point&) override {
+    return false;
   }
 #else
-  bool send(rtps::SenderResource* wrapped, const rtps::octet* bytes, std::uint32_t size, rtps::LocatorsIterator* begin,
-            rtps::LocatorsIterator* end, const std::chrono::steady_clock::time_point& deadline) override {
-    return wrapped->send(bytes, size, begin, end, deadline);
+  bool send(rtps::SenderResource*, const rtps::octet*, std::uint32_t, rtps::LocatorsIterator*, rtps::LocatorsIterator*,
+            const std::chrono::steady_clock::time_point&) override {
+    return false;
   }
 #endif
 
- private:
-  CompleteTransportDescriptor descriptor_;
   std::shared_ptr<Completion> participant_;
   std::atomic<bool> is_complete_ = false;
 };
 
-inline transport::TransportInterface* CompleteTransportDescriptor::create_transport() const {
-  return new CompleteTransport(*this, participant_);
-}
+// The configuration of a transport. Fast DDS looks at its type.
+template <class Descriptor>
+class CompleteDescriptor final : public Descriptor {
+ public:
+  CompleteDescriptor(const Descriptor& descriptor, std::shared_ptr<Completion> participant)
+      : Descriptor(descriptor), participant_(std::move(participant)) {}
+
+  transport::TransportInterface* create_transport() const override {
+    return new CompleteTransport(std::make_shared<Descriptor>(*this), participant_);
+  }
+
+ private:
+  std::shared_ptr<Completion> participant_;
+};
 
 }  // namespace coframe::fastdds

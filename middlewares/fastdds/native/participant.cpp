@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <random>
+#include <type_traits>
 
 #include "complete_transport.hpp"
 
@@ -62,14 +63,18 @@ void set_own_transports(dds::DomainParticipantQos& qos, const std::shared_ptr<Co
   constexpr std::uint32_t kSegmentSize = std::uint32_t{4} << 20;
   auto& transports = qos.transport();
   transports.use_builtin_transports = false;
+  const auto add = [&](const auto& descriptor) {
+    using Complete = CompleteDescriptor<std::decay_t<decltype(descriptor)>>;
+    transports.user_transports.push_back(std::make_shared<Complete>(descriptor, completion));
+  };
   if (kSharesMemory) {
-    auto memory = std::make_shared<transport::SharedMemTransportDescriptor>();
-    memory->segment_size(kSegmentSize);
-    transports.user_transports.push_back(std::move(memory));
+    transport::SharedMemTransportDescriptor memory;
+    memory.segment_size(kSegmentSize);
+    add(memory);
   }
-  auto udp = std::make_shared<transport::UDPv4TransportDescriptor>();
-  udp->maxInitialPeersRange = kPeers;
-  transports.user_transports.push_back(std::make_shared<CompleteTransportDescriptor>(std::move(udp), completion));
+  transport::UDPv4TransportDescriptor udp;
+  udp.maxInitialPeersRange = kPeers;
+  add(udp);
 }
 
 // An address that no other participant expects, so that none is received. Fast DDS 3 also ignores those that it finds.
@@ -103,7 +108,8 @@ void set_discovery(dds::DomainParticipantQos& qos, const ParticipantOptions& opt
     add_peer(qos, "239.255.0.1");
   }
   // The user's configuration comes first.
-  if (options.profiles.empty() && std::getenv("FASTDDS_BUILTIN_TRANSPORTS") == nullptr) set_own_transports(qos, completion);
+  if (options.profiles.empty() && std::getenv("FASTDDS_BUILTIN_TRANSPORTS") == nullptr)
+    set_own_transports(qos, completion);
 }
 
 // Prints errors as one plain line each. Without it, Fast DDS writes them in colors, and reports descriptions of types
