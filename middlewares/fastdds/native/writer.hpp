@@ -55,7 +55,7 @@ class Writer final : dds::DataWriterListener {
   }
   dds::DataWriter& open() const;
   // The readers of this process that were matched since the last message receive the latched ones first, which a new
-  // message may replace. Fast DDS sends them on a thread of its own.
+  // message may replace. Fast DDS sends them on another thread.
   void deliver_history();
   std::int64_t send(Outgoing& message, const rtps::SampleIdentity* related);
   // Sends a reference to the message in a block. Returns nothing if a reader needs the message itself.
