@@ -86,6 +86,7 @@ def order(turn, shift):
 
 
 RIGHT_TURN, RIGHT_PLACE = right_mount()
+GL = Rotation.from_euler("x", 180, True)
 INVERSE = RIGHT_TURN.inv(), -RIGHT_TURN.inv().apply(RIGHT_PLACE)
 STEREO = {
     "w first": ({"right": (order(RIGHT_TURN, 1), RIGHT_PLACE)}, "if its quaternion"),
@@ -100,6 +101,27 @@ STEREO = {
     "swapped": ({"swap": True}, "the sign of Tx is wrong, or the two cameras or their frames are swapped"),
     "millimeters in P": ({"tx": -700.0 * BASELINE * 1000}, r"they agree if P\[3\] is in millimeters"),
     "centimeters in P": ({"tx": -700.0 * BASELINE * 100}, r"they agree if P\[3\] is in centimeters"),
+    "body, both": (
+        {"left": (LEFT * OPTICAL.inv(), LEFT_PLACE), "right": (RIGHT_TURN * OPTICAL.inv(), RIGHT_PLACE)},
+        "differs from P and R of the pair by 373 mm .* both cameras: its rotation is that of the camera's body",
+    ),
+    "OpenGL, both": (
+        {"left": (LEFT * GL, LEFT_PLACE), "right": (RIGHT_TURN * GL, RIGHT_PLACE)},
+        "z axis points backward instead of forward; .* turned by 180 degrees about its x axis",
+    ),
+    "millimeters, one": ({"right": (RIGHT_TURN, RIGHT_PLACE * 1000)}, "agree within 0 mm .* read in millimeters"),
+    "centimeters, both": (
+        {"left": (LEFT, LEFT_PLACE * 100), "right": (RIGHT_TURN, RIGHT_PLACE * 100)},
+        "by 25.7 m and 0 degrees; they agree within 0 mm .* both cameras: its translation is read in centimeters",
+    ),
+    "inches, both": (
+        {"left": (LEFT, LEFT_PLACE / 0.0254), "right": (RIGHT_TURN, RIGHT_PLACE / 0.0254)},
+        "both cameras: its translation is read in inches",
+    ),
+    "no focal length in P": (
+        {"tx": -BASELINE},
+        r"P\[3\] = -0.26 .* is the baseline in meters, without the focal length",
+    ),
     "inches in P": ({"tx": -700.0 * BASELINE / 0.0254}, r"they agree if P\[3\] is in inches"),
 }
 
@@ -152,10 +174,35 @@ def test_values_of_the_optical_frame_on_the_body_of_a_camera(only):
     finding = only(rig(edges, {"/camera/camera_info": info("camera_optical_frame")}), "TF021")
     assert "'camera_link' is the body of a camera, and is rotated like its optical frame" in finding.text
     assert finding.edge == ("base_link", "camera_link")
+    driver = [("color_frame", "color_optical_frame", OPTICAL, np.zeros(3)),
+              ("camera_link", "color_frame", body(0.1, 0.2, -0.1), [0.0, 0.015, 0.0]), edges[1]]  # fmt: skip
+    assert only(rig(driver, {"/camera/camera_info": info("color_optical_frame")}), "TF021").edge == finding.edge
     hand = [("camera_link", "camera_optical_frame", OPTICAL, np.zeros(3)),
             ("tool0", "camera_link", Rotation.from_euler("xyz", [2, -1, 88], True), [0.05, 0.0, 0.04]),
             ("base_link", "tool0", Rotation.from_euler("x", 170, True), [0.4, 0.0, 0.5])]  # fmt: skip
     assert only(rig(hand, {"/camera/camera_info": info("camera_optical_frame")}), "TF021").edge[1] == "camera_link"
+
+
+@pytest.mark.parametrize(
+    ("frame", "yaw", "wrong", "text"),
+    [
+        ("rear_optical_frame", 178, lambda turn: turn * GL, "looks backward if it is turned by 180 degrees about its x axis"),
+        ("CAM_BACK", 181, lambda turn: turn * OPTICAL.inv(), "/front/camera_info, and therefore optical, but its z axis points up instead of backward"),
+        ("left_side_optical", 92, lambda turn: turn * GL, "looks left if "),
+        ("cam_right", -91, lambda turn: turn * OPTICAL.inv(), "its z axis points up instead of right"),
+        ("cam0", 1, lambda turn: turn * OPTICAL.inv(), "therefore optical, but is not rotated relative to 'base_link'"),
+    ],
+)  # fmt: skip
+def test_names_of_frames_say_where_cameras_look(only, frame, yaw, wrong, text):
+    turn = body(0.3, 1.2, yaw) * OPTICAL
+    assert text in only(single(wrong(turn), frame=frame), "TF021").text
+
+
+def test_camera_info_in_the_frame_of_the_body(only):
+    edges = [("camera_link", "camera_optical_frame", OPTICAL, [0.0, 0.015, 0.0]),
+             ("base_link", "camera_link", body(0.3, 2.0, -0.4), LEFT_PLACE)]  # fmt: skip
+    finding = only(rig(edges, {"/camera/camera_info": info("camera_link")}), "TF030")
+    assert "its frame 'camera_link' is the body of the camera, and pixels are in its optical frame" in finding.text
 
 
 def body(*degrees):
@@ -168,6 +215,9 @@ def right_rigs():
                           "corner": (-0.6, 10, 44), "aligned": (0, 0, 0), "hanging": (180, 0.3, 0.2),
                           "rear_aligned": (0, 0, 180)}.items():  # fmt: skip
         yield name, single(body(*degrees) * OPTICAL, frame=f"{name}_optical_frame")
+    for name, yaw in {"rear": 179, "back": 185, "left": 88, "right": -93, "BACK_LEFT": 110, "zed_left": 1}.items():
+        yield f"{name}, not named optical", single(body(0.6, 12.0, yaw) * OPTICAL, frame=f"cam_{name}")
+    yield "rear, hanging", single(body(179.0, 2.0, 181.0) * OPTICAL, frame="rear_optical_frame")
     for name, fields in {
         "fisheye": {"model": "equidistant", "d": FISHEYE}, "fisheye, zeros": {"model": "equidistant", "d": [0.0] * 4},
         "fisheye, other name": {"model": "fisheye", "d": FISHEYE}, "kb4": {"model": "kannala_brandt4", "d": FISHEYE},

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Faults of real processes, found by the command."""
 
+import itertools
 import json
 import os
 import re
@@ -12,14 +13,19 @@ import textwrap
 import time
 from subprocess import PIPE
 
+import numpy as np
 import pytest
 from nodes import ROBOT
+from recordings import START
+from runs import MS, stamp_message, yaw
+from test_cameras import INVERSE, stereo  # of this folder
 
 import coframe
 from coframe.connection.listener_config import ListenerConfig
 from coframe.doctor import diagnose
 from coframe.doctor.live import LiveObserver
-from coframe.messages import find
+from coframe.messages import deserialize, find
+from coframe.wire.qos import TF_STATIC_WRITER
 
 # Replaces the function by which a process reads the clock.
 CLOCK = """
@@ -91,6 +97,52 @@ commands, grid = node.create_publisher(JointState, "/arm", 10), node.create_publ
     assert "/rear/scan" in finding["text"]
     assert "/scan" in finding["text"]
     assert "Look at the output of /lidar_driver" in finding["fix"]
+
+
+def test_cameras_imus_and_odometry_are_compared_with_the_transforms(domain_id, eventually, examine):
+    pytest.importorskip("dds_library", reason="messages are received over DDS")
+    upside_down = (1.0, 0.0, 0.0, 0.0)
+    run = stereo(right=INVERSE)
+    run.tf("base_link", "imu", START, (0.1, 0.0, 0.2), upside_down, static=True)
+    imu, odometry = find("sensor_msgs/msg/Imu")(), find("nav_msgs/msg/Odometry")(child_frame_id="base_link")
+    imu.header.frame_id, imu.linear_acceleration.z = "imu", 9.81
+    odometry.header.frame_id = "odom"
+    for step in range(60):
+        imu.header.stamp = odometry.header.stamp = stamp_message(START + step * 20 * MS)
+        turn, place = odometry.pose.pose.orientation, odometry.pose.pose.position
+        *_, turn.z, turn.w = yaw(step / 150)  # the rotation of Run.drive
+        place.x, place.y = 1000 * np.cos(step / 150), 1000 * np.sin(step / 150)
+        run.message("/imu", imu.ROS_TYPE, imu, START + step * 20 * MS)
+        run.message("/odom", odometry.ROS_TYPE, odometry, START + step * 20 * MS)
+
+    def contradictions(report):
+        found = [one.text for one in report.every_finding() if one.code in {"TF029", "TF030"}]
+        return {re.sub(r" \(\d+ compared\)", "", text) for text in found}
+
+    recorded = contradictions(examine(run))
+    assert len(recorded) == 3, recorded
+    with observer(domain_id) as listening, coframe.connect("rig", domain=domain_id) as ros:
+        publishers = {
+            topic: ros.publisher(topic, find(type_), TF_STATIC_WRITER if "static" in topic else 100)
+            for topic, (type_, *_) in run.types.items()
+        }
+        rows = [(topic, deserialize(data, find(run.types[topic][0]))) for topic, _, data in run.rows]
+        statics = [transform for topic, each in rows if topic == "/tf_static" for transform in each.transforms]
+        publishers["/tf_static"].publish(find("tf2_msgs/msg/TFMessage")(transforms=statics))
+        others = itertools.cycle([row for row in rows if row[0] != "/tf_static"])
+
+        def received():
+            for topic, message in itertools.islice(others, 20):
+                publishers[topic].publish(message)
+            listening.poll()
+            seen = listening.observe()
+            edges = {edge.key for edge in seen.edges}
+            measured = seen.imus and len(seen.imus[0].rates) > 50 and seen.poses and len(seen.poses[0].stamp) > 50
+            return measured and len(seen.cameras) == 2 and edges >= {("odom", "base_link"), ("base_link", "imu")}
+
+        eventually(received)
+        live = contradictions(diagnose(listening.observe()))
+    assert live == recorded
 
 
 def test_departed_publisher_is_removed_with_its_transforms(domain_id, eventually):

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from coframe.doctor._edge import Edge
     from coframe.doctor.observation import Observation
 
-__all__ = ["WrongAxes", "is_optical", "wrong_axes"]
+__all__ = ["WrongAxes", "is_optical", "optical_frame_below", "wrong_axes"]
 
 _MAX_TILT_SINE = np.sin(np.radians(10.0))
 _MIN_ALIGNED_COSINE = np.cos(np.radians(25.0))
@@ -31,7 +31,7 @@ _MIN_ROLLED_SINE = np.sin(np.radians(30.0))
 _MAX_UNROTATED_ANGLE = np.radians(10.0)  # how far calibrated cameras are off the axes of their robot
 _MAX_ALIGNMENT_ERROR = 0.1  # of an axis of one frame in another, at most this much off 0 or 1
 _MAX_ANGLE_ERROR = np.radians(3.0)
-_REAR_NAMES = re.compile("rear|back|aft")
+_NAMED_SIDES = (("rear|back|aft", 3), ("left", 1), ("right", 4))  # words in names, and the index of the direction
 _DIRECTIONS = ("forward", "left", "up", "backward", "right", "down")
 _MAX_CANDIDATES = 2
 _TOOL_NAMES = re.compile("tool|flange|gripper|hand|effector|tcp|wrist")
@@ -56,27 +56,73 @@ class WrongAxes(NamedTuple):
     pose: NDArray[np.float64]
 
 
-def is_optical(edge: Edge) -> bool:
+def is_optical(observation: Observation, edge: Edge) -> bool:
     """Return whether an edge leads to the optical frame of a camera, from a frame that is not optical."""
-    return "optical" in edge.child.lower() and "optical" not in edge.parent.lower()
+    return _is_optical_frame(observation, edge.child) and not _is_optical_frame(observation, edge.parent)
+
+
+def _is_optical_frame(observation: Observation, frame: str) -> bool:
+    if "optical" in frame.lower():
+        return True
+    return _camera_topic(observation, frame) is not None and optical_frame_below(observation, frame) is None
+
+
+def _camera_topic(observation: Observation, frame: str) -> str | None:
+    """Return the topic of a CameraInfo in a frame, which is optical by definition."""
+    return next((camera.topic for camera in observation.cameras if camera.frame == frame), None)
+
+
+def optical_frame_below(observation: Observation, frame: str) -> str | None:
+    """Return the optical frame of a camera's body, or None if a frame is not the body of a camera."""
+    below = (edge.child for edge in observation.last.values() if edge.parent == frame)
+    return next((child for child in below if "optical" in child.lower() and _is_body_of(frame, child)), None)
+
+
+def _optical_name(observation: Observation, frame: str) -> str:
+    """Return why a frame is optical, as the beginning of a sentence."""
+    if "optical" in frame.lower():
+        return f"{frame!r} is named optical"
+    return f"{frame!r} is the frame of {_camera_topic(observation, frame)}, and therefore optical"
 
 
 def wrong_axes(observation: Observation, edge: Edge) -> WrongAxes | None:
     """Return what is wrong with the axes of an optical frame, or None if a camera can be mounted in this way."""
     if _is_body_of(edge.parent, edge.child):
-        return _check_rep103_rotation(edge) or _optical_values_for_the_body(observation, edge)
+        return _check_rep103_rotation(observation, edge) or _optical_values_for_the_body(observation, edge)
     chain = [edge] if is_base_frame(edge.parent) else [edge, *observation.mounts(edge.parent)]
     turn = _chain_rotation(chain, None)
-    if not is_base_frame(chain[-1].parent) or _REAR_NAMES.search(edge.child.lower()):
+    if not is_base_frame(chain[-1].parent):
         return None
+    sides = _possible_sides(edge.child)
+    right, down, forward = _axes(turn)
     if _angle(turn, _IDENTITY) < _MAX_UNROTATED_ANGLE:
-        return _unrotated_frame(edge)
-    right, _, forward = _axes(turn)
-    down = _axes(turn)[1]
+        return _unrotated_frame(observation, edge)
+    if sides != _FORWARD_ONLY and forward[2] > np.cos(_MAX_UNROTATED_ANGLE) and _looks_to(sides, right) is not None:
+        return _find_corrected_edge(observation, chain, turn)  # The axes are those of the body.
     is_rolled = abs(right[2]) > _MIN_ROLLED_SINE or down[2] > _MAX_TILT_SINE
     if is_rolled:
-        return None if forward[0] > _MIN_ROLLED_SINE else _find_corrected_edge(chain, turn)
+        is_possible = any(_side(side) @ forward > _MIN_ROLLED_SINE for side in sides)
+        return None if is_possible else _find_corrected_edge(observation, chain, turn)
     return _with_round_angles(edge)
+
+
+_FORWARD_ONLY = (0,)
+
+
+def _possible_sides(frame: str) -> tuple[int, ...]:
+    """Return the sides to which a camera looks by its name; the left camera of a stereo pair also looks forward."""
+    named = tuple(side for words, side in _NAMED_SIDES if re.search(words, frame.lower()))
+    return named if 3 in named else (*named, 0)
+
+
+def _looks_to(sides: Sequence[int], forward: NDArray[np.float64]) -> int | None:
+    """Return the side to which a camera looks, or None if it is none of them."""
+    return next((side for side in sides if _side(side) @ forward > _MIN_ALIGNED_COSINE), None)
+
+
+def _side(index: int) -> NDArray[np.float64]:
+    """Return the unit vector of one of the directions."""
+    return np.asarray(np.eye(3)[index % 3] * (1.0 if index < 3 else -1.0))
 
 
 def _optical_values_for_the_body(observation: Observation, edge: Edge) -> WrongAxes | None:
@@ -85,8 +131,10 @@ def _optical_values_for_the_body(observation: Observation, edge: Edge) -> WrongA
     On a robot, the camera is upright and looks ahead if the rotation is that of the optical frame. On a gripper, it
     looks along the axis of the tool.
     """
-    above = observation.last.get(edge.parent)
-    if above is None or not (above.static or above.constant):
+    # Drivers publish further frames of one camera, such as camera_color_frame, which are not rotated.
+    mounts = observation.mounts(edge.parent)
+    above = next((each for each in mounts if each.angle > _MAX_UNROTATED_ANGLE), None)
+    if above is None:
         return None
     own = above.rotations[-1]
     if is_base_frame(above.parent):
@@ -154,13 +202,13 @@ def _is_body_of(parent: str, child: str) -> bool:
     return words[0] == words[1] and bool(words[0])
 
 
-def _check_rep103_rotation(edge: Edge) -> WrongAxes | None:
+def _check_rep103_rotation(observation: Observation, edge: Edge) -> WrongAxes | None:
     """Return what is wrong with the optical frame of a camera's body, whose rotation REP-103 defines."""
     turn = edge.rotations[-1]
     if _angle(turn, OPTICAL_ROTATION) < 2.0 * _MAX_UNROTATED_ANGLE:
         return None
     if _angle(turn, _IDENTITY) < _MAX_UNROTATED_ANGLE:
-        return _unrotated_frame(edge)
+        return _unrotated_frame(observation, edge)
     zero = np.zeros(3)
     published, expected = (np.concatenate([zero, each])[None] for each in (turn, OPTICAL_ROTATION))
     found = explain(published, expected, radians=_MAX_ANGLE_ERROR)
@@ -169,32 +217,38 @@ def _check_rep103_rotation(edge: Edge) -> WrongAxes | None:
     if found is None and not is_aligned:
         return None
     reading = f"; the rotation agrees with REP-103 if {found.reading}" if found else ""
-    text = f"{_describe_axes(edge, turn)}{reading}"
+    text = f"{_describe_axes(observation, edge, turn)}{reading}"
     return WrongAxes(edge, text, found.fix if found else "", np.concatenate([edge.values[-1, :3], OPTICAL_ROTATION]))
 
 
-def _unrotated_frame(edge: Edge) -> WrongAxes:
+def _unrotated_frame(observation: Observation, edge: Edge) -> WrongAxes:
     text = (
-        f"{edge.child!r} is named optical, but is not rotated relative to {edge.parent!r}: its z axis points up "
-        "instead of forward"
+        f"{_optical_name(observation, edge.child)}, but is not rotated relative to {edge.parent!r}: its z axis points "
+        "up instead of forward"
     )
     turn = quaternion.multiply(edge.rotations[-1], OPTICAL_ROTATION)
     return WrongAxes(edge, text, "", np.concatenate([edge.values[-1, :3], turn]))
 
 
-def _find_corrected_edge(chain: Sequence[Edge], turn: NDArray[np.float64]) -> WrongAxes | None:
+def _find_corrected_edge(
+    observation: Observation, chain: Sequence[Edge], turn: NDArray[np.float64]
+) -> WrongAxes | None:
     """Return the first edge and the corrections with which the camera is upright and looks forward."""
+    sides = _possible_sides(chain[0].child)
     for edge in chain:
-        found: dict[str, Correction] = {}
+        found: dict[int, dict[str, Correction]] = {}
         for correction in corrections(np.concatenate([edge.values[-1, :3], edge.rotations[-1]])):
             right, down, forward = _axes(_chain_rotation(chain, (edge, correction.pose[3:])))
-            if abs(right[2]) < _MAX_TILT_SINE and down[2] < -_MIN_ALIGNED_COSINE and forward[0] > _MIN_ALIGNED_COSINE:
-                found.setdefault(correction.reading, correction)
-        if found:
-            first, *_ = found.values()
-            readings = " or ".join(f"if {reading}" for reading in list(found)[:_MAX_CANDIDATES])
-            text = f"{_describe_axes(chain[0], turn)}; the camera is upright and looks forward {readings}"
-            return WrongAxes(edge, text, first.fix, first.pose)
+            side = _looks_to(sides, forward)
+            if side is not None and abs(right[2]) < _MAX_TILT_SINE and down[2] < -_MIN_ALIGNED_COSINE:
+                found.setdefault(side, {}).setdefault(correction.reading, correction)
+        for side in sides:
+            if side in found:
+                first, *_ = found[side].values()
+                readings = " or ".join(f"if {reading}" for reading in list(found[side])[:_MAX_CANDIDATES])
+                axes = _describe_axes(observation, chain[0], turn, side)
+                text = f"{axes}; the camera is upright and looks {_DIRECTIONS[side]} {readings}"
+                return WrongAxes(edge, text, first.fix, first.pose)
     return None
 
 
@@ -216,15 +270,16 @@ def _angle(first: NDArray[np.float64], second: NDArray[np.float64]) -> float:
     return float(2.0 * np.arccos(min(1.0, abs(float(first @ second)))))
 
 
-def _describe_axes(edge: Edge, turn: NDArray[np.float64]) -> str:
-    """Return which way the axes of an optical frame point instead of the right one."""
+def _describe_axes(observation: Observation, edge: Edge, turn: NDArray[np.float64], side: int = 0) -> str:
+    """Return which way the axes of an optical frame point instead of those of a camera that looks to a side."""
     right, _, forward = (_direction(axis) for axis in _axes(turn))
+    on_its_right = _direction(np.cross(_side(side), [0.0, 0.0, 1.0]))
     wrong = [
         f"its {axis} axis points {direction} instead of {expected}"
-        for axis, direction, expected in (("z", forward, "forward"), ("x", right, "right"))
+        for axis, direction, expected in (("z", forward, _DIRECTIONS[side]), ("x", right, on_its_right))
         if direction != expected
     ]
-    return f"{edge.child!r} is named optical, but {' and '.join(wrong) or 'its axes are tilted'}"
+    return f"{_optical_name(observation, edge.child)}, but {' and '.join(wrong) or 'its axes are tilted'}"
 
 
 def _direction(axis: NDArray[np.float64]) -> str:

@@ -3,16 +3,17 @@
 
 from __future__ import annotations
 
+from itertools import chain, product
 from math import degrees
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from coframe import quaternion
-from coframe.doctor.pose_mistakes import corrections, inverse_poses
+from coframe.doctor.pose_mistakes import Correction, angle_text, corrections, inverse_poses, length_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from coframe.doctor.observation import Observation, ObservedCamera
 
     Array = NDArray[np.float64]
+    _Mounts = tuple[tuple[Edge, Array], ...]
 
 __all__ = ["StereoContradiction", "stereo_contradictions"]
 
@@ -28,6 +30,7 @@ _MIN_BASELINE = 1e-3  # meters; below it, the image is that of a single camera
 _MAX_SHARE, _MAX_DISTANCE = 0.03, 3e-3  # of a baseline by which two calibrations may differ, and meters
 _MAX_FOCAL_DIFFERENCE = 1e-3  # of the focal lengths of a rectified pair, which are equal
 _MIN_WRONG_ANGLE, _MAX_RIGHT_ANGLE = np.radians(1.5), np.radians(0.5)
+_MIN_WRONG_BASELINE_ANGLE = np.radians(3.0)  # of the direction of the baseline; below it, its value or sign is wrong
 _UNITS = (("millimeters", 1e3), ("centimeters", 1e2), ("inches", 1 / 0.0254))
 
 
@@ -38,15 +41,13 @@ class StereoContradiction(NamedTuple):
         topic: The topic of the CameraInfo with the baseline.
         text: The two values, and the mistake with which they agree.
         fix: What to do.
-        edge: The mount with which it is corrected, or None if the CameraInfo is more likely wrong.
-        pose: The corrected pose, (7,).
+        mounts: The mounts with their right poses (7,), or none if the CameraInfo is more likely wrong.
     """
 
     topic: str
     text: str
     fix: str
-    edge: Edge | None = None
-    pose: Array | None = None
+    mounts: tuple[tuple[Edge, Array], ...] = ()
 
 
 class _Pair(NamedTuple):
@@ -57,17 +58,26 @@ class _Pair(NamedTuple):
     up: list[Edge]
     down: list[Edge]
 
-    def relative(self, changed: tuple[Edge, Array] | None = None) -> Array:
-        """Return the pose (7,) of the second camera in the first one, with another pose of one mount."""
+    def relative(self, changed: _Mounts = ()) -> Array:
+        """Return the pose (7,) of the second camera in the first one, with other poses of some mounts."""
         return _compose(_inverse(_chain(self.up, changed)), _chain(self.down, changed))
+
+
+class _Hypothesis(NamedTuple):
+    """A mistake in the mounts of a pair, and their poses (7,) without it."""
+
+    reading: str
+    fix: str
+    mounts: _Mounts
 
 
 def stereo_contradictions(observation: Observation) -> Iterator[StereoContradiction]:
     """Yield the stereo pairs whose transforms contradict P and R, and the mistake that explains it."""
     for second in observation.cameras:
-        if second.model is None or _baseline(second.model) < _MIN_BASELINE:
+        if second.model is None or not second.model.p[:2, 3].any():
             continue
-        found = [_contradiction(pair) for pair in _pairs(observation, second)]
+        check = _contradiction if _baseline(second.model) >= _MIN_BASELINE else _baseline_without_focal_length
+        found = [check(pair) for pair in _pairs(observation, second)]
         # Of several cameras that can be the first one, any may agree.
         if found and all(one is not None for one in found):
             yield next(one for one in found if one is not None)
@@ -114,12 +124,17 @@ def _contradiction(pair: _Pair) -> StereoContradiction | None:
     fits = float(np.linalg.norm(published - expected)) < max(limit, 2.0 * np.sin(_MIN_WRONG_ANGLE) * size)
     if fits and turn < _MIN_WRONG_ANGLE:
         return None
-    mount = None
+    before = float(np.linalg.norm(published - expected)), turn
+    found: StereoContradiction | None
     if turn >= _MIN_WRONG_ANGLE:
-        mount = _wrong_mount(pair, expected, (float(np.linalg.norm(published - expected)), turn))
-    if mount is None and fits:
-        mount = _wrong_rotation(pair, turn)
-    return mount or _wrong_baseline(pair.second.topic, second, expected, published, limit)
+        found = _wrong_mount(pair, _wrong_rotations(pair), expected, before)
+        if found is None and fits:
+            found = _wrong_rotation(pair, turn)
+    else:
+        is_turned = abs(float(published @ expected)) < np.cos(_MIN_WRONG_BASELINE_ANGLE) * size * length
+        hypotheses = chain(_other_units(pair), _wrong_rotations(pair) if is_turned else ())
+        found = _wrong_mount(pair, hypotheses, expected, before)
+    return found or _wrong_baseline(pair.second.topic, second, expected, published, limit)
 
 
 def _angle_to(relative: Array, first: CameraModel, second: CameraModel) -> float:
@@ -128,24 +143,26 @@ def _angle_to(relative: Array, first: CameraModel, second: CameraModel) -> float
     return float(np.arccos(np.clip((np.trace(off) - 1.0) / 2.0, -1.0, 1.0)))
 
 
-def _wrong_mount(pair: _Pair, expected: Array, before: tuple[float, float]) -> StereoContradiction | None:
-    """Return the mount and the mistake with which both the rotation and the baseline agree."""
+def _wrong_mount(
+    pair: _Pair, hypotheses: Iterable[_Hypothesis], expected: Array, before: tuple[float, float]
+) -> StereoContradiction | None:
+    """Return the first mistake with which rotation and baseline agree; `before` is how far they are off now."""
     first, second = pair.first.model, pair.second.model
     assert first is not None
     assert second is not None
-    for edge in (*pair.up, *pair.down):
-        for reading, fix, pose in _readings(edge):
-            relative = pair.relative((edge, pose))
-            off = float(np.linalg.norm(first.r @ relative[:3] - expected))
-            turn = _angle_to(relative, first, second)
-            limit = max(_MAX_DISTANCE, _MAX_SHARE * float(np.linalg.norm(expected)))
-            if off < limit and turn < _MAX_RIGHT_ANGLE and (5.0 * off < before[0] or 5.0 * turn < before[1]):
-                text = (
-                    f"the transform from {pair.second.frame!r} to {pair.first.frame!r} differs from P and R "
-                    f"of the pair by {before[0] * 1e3:.3g} mm and {degrees(before[1]):.3g} "
-                    f"degrees; they agree within {off * 1e3:.2g} mm and {degrees(turn):.2g} degrees if {reading}"
-                )
-                return StereoContradiction(pair.second.topic, text, fix, edge, pose)
+    limit = max(_MAX_DISTANCE, _MAX_SHARE * float(np.linalg.norm(expected)))
+    for reading, fix, mounts in hypotheses:
+        relative = pair.relative(mounts)
+        off = float(np.linalg.norm(first.r @ relative[:3] - expected))
+        turn = _angle_to(relative, first, second)
+        if off < limit and turn < _MAX_RIGHT_ANGLE and (5.0 * off < before[0] or 5.0 * turn < before[1]):
+            condition = f"if this is true of the mounts of both cameras: {reading}" if mounts[1:] else f"if {reading}"
+            text = (
+                f"the transform from {pair.second.frame!r} to {pair.first.frame!r} differs from P and R of the pair by "
+                f"{length_text(before[0])} and {angle_text(before[1])}; they agree within {length_text(off)} and "
+                f"{angle_text(turn)} {condition}"
+            )
+            return StereoContradiction(pair.second.topic, text, fix, mounts)
     return None
 
 
@@ -157,14 +174,55 @@ def _wrong_rotation(pair: _Pair, turn: float) -> StereoContradiction:
     return StereoContradiction(pair.second.topic, text, "Calibrate the pair again, and publish both mounts from it.")
 
 
-def _readings(edge: Edge) -> Iterator[tuple[str, str, Array]]:
-    """Yield what a mount may have been meant to be: other rotations, its inverse, other units."""
-    pose = edge.last_pose[0]
-    for correction in corrections(pose):
-        yield correction.reading, correction.fix, correction.pose
-    for unit, factor in _UNITS:
-        scaled = np.concatenate([pose[:3] / factor, pose[3:]])
-        yield f"its translation is read in {unit}", f"Use meters: divide by {factor:.6g}.", scaled
+def _wrong_rotations(pair: _Pair) -> Iterator[_Hypothesis]:
+    """Yield what the mounts may have been meant to be: with another rotation or their inverse."""
+    return _hypotheses(pair, lambda pose: list(corrections(pose)))
+
+
+def _other_units(pair: _Pair) -> Iterator[_Hypothesis]:
+    """Yield what the mounts may have been meant to be: with their translation in meters."""
+    return _hypotheses(
+        pair,
+        lambda pose: [
+            Correction(
+                f"its translation is read in {unit}",
+                f"Use meters: divide by {factor:.6g}.",
+                np.concatenate([pose[:3] / factor, pose[3:]]),
+            )
+            for unit, factor in _UNITS
+        ],
+    )
+
+
+def _hypotheses(pair: _Pair, correct: Callable[[Array], list[Correction]]) -> Iterator[_Hypothesis]:
+    """Yield the corrections of each mount, and the same correction of both cameras at once."""
+    for edge in (*pair.up, *pair.down):
+        for one in correct(edge.last_pose[0]):
+            yield _Hypothesis(one.reading, one.fix, ((edge, one.pose),))
+    if len(pair.up) != len(pair.down):
+        return
+    for edge, other in zip(pair.up, pair.down, strict=True):
+        for one, same in product(correct(edge.last_pose[0]), correct(other.last_pose[0])):
+            if one.reading == same.reading:
+                yield _Hypothesis(one.reading, one.fix, ((edge, one.pose), (other, same.pose)))
+
+
+def _baseline_without_focal_length(pair: _Pair) -> StereoContradiction | None:
+    """Return a P whose fourth column is the baseline in meters, not that times the focal length."""
+    first, second = pair.first.model, pair.second.model
+    assert first is not None
+    assert second is not None
+    published = (first.r @ pair.relative()[:3])[:2]
+    if abs(float(np.hypot(*second.p[:2, 3])) - float(np.hypot(*published))) > _MAX_SHARE * float(np.hypot(*published)):
+        return None
+    axis = int(np.argmax(np.abs(published)))
+    place, value, focal = ("P[3]", "P[7]")[axis], second.p[axis, 3], second.p[axis, axis]
+    text = (
+        f"{place} = {value:.6g} states a baseline of {length_text(abs(value / focal))}, and by the transforms it is "
+        f"{length_text(abs(published[axis]))}: {place} is the baseline in meters, without the focal length"
+    )
+    fix = f"Set {place} to {-published[axis] * focal:.6g} (-fx times the baseline)."
+    return StereoContradiction(pair.second.topic, text, fix)
 
 
 def _wrong_baseline(
@@ -189,18 +247,19 @@ def _wrong_baseline(
                 text = (
                     f"{states}, and by the transforms it is {published[axis]:.4g} m: they agree if {where} is in {unit}"
                 )
-                return StereoContradiction(topic, text, fix)
+                in_meters = f"Use meters in the transforms: divide by {factor:.6g}."
+                return StereoContradiction(topic, text, fix if scale > 1.0 else in_meters)
     text = f"{states}, but by the transforms it is {published[axis]:.4g} m ({np.linalg.norm(published):.4g} m apart)"
     return StereoContradiction(
         topic, text, f"{fix} Otherwise correct the transform: the cameras are {abs(expected[axis]):.4g} m apart."
     )
 
 
-def _chain(edges: Sequence[Edge], changed: tuple[Edge, Array] | None) -> Array:
+def _chain(edges: Sequence[Edge], changed: _Mounts) -> Array:
     """Return the pose of the lower end of some edges, from the bottom up, in their upper end."""
     pose = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
     for edge in edges:
-        own = changed[1] if changed is not None and changed[0] is edge else edge.last_pose[0]
+        own = next((other for one, other in changed if one is edge), edge.last_pose[0])
         pose = _compose(own, pose)
     return pose
 

@@ -7,13 +7,21 @@ import contextlib
 import time
 from collections import deque
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 
 from coframe._process.freed_memory import return_freed_blocks
 from coframe.connection.listener_config import ListenerConfig
 from coframe.doctor._joints import joint_states
+from coframe.doctor._message_evidence import (
+    CAMERA_INFO,
+    IMU,
+    ODOMETRY,
+    observed_camera,
+    observed_imu,
+    observed_poses,
+)
 from coframe.doctor.collector import Collector
 from coframe.doctor.observation import (
     Observation,
@@ -37,7 +45,7 @@ from coframe.wire.qos import TF, TF_STATIC_READER, QoS
 from coframe.wire.tf_reader import STATICS_TIMEOUT
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterable, Iterator
+    from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 
     from numpy.typing import NDArray
     from typing_extensions import Self
@@ -48,12 +56,15 @@ if TYPE_CHECKING:
 
 __all__ = ["LiveObserver"]
 
+_Evidence = TypeVar("_Evidence")
 _ANY_PUBLISHER = QoS(depth=100, reliable=False)  # matches every publisher
 _LATCHED = QoS(depth=10, transient_local=True)
 _WHOLE_MESSAGE = 16 << 20  # bytes; enough for a description, a joint state or a log message
 # Images need several megabytes per second, and their CameraInfo has the same header.
 _LARGE_TYPES = {"sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"}
 _DECODED_TYPES = {"sensor_msgs/msg/JointState", "rcl_interfaces/msg/Log", "rosgraph_msgs/msg/Clock"}
+_EVIDENCE_MESSAGES = {CAMERA_INFO: 1, IMU: 1000, ODOMETRY: 1000}  # the latest ones of each topic that are decoded
+_MAX_EVIDENCE = 1 << 14  # bytes of one of these messages; larger ones are not decoded
 _DESCRIPTION = "robot_description"
 MAX_TRANSFORMS = 1_000_000
 MAX_MESSAGES = 20_000  # for each topic
@@ -95,6 +106,7 @@ class _Topic:
         self.since = time.monotonic_ns()
         self.messages = 0
         self.headers: deque[_ReceivedHeader] = deque()
+        self.evidence: deque[tuple[int, bytes]] = deque(maxlen=_EVIDENCE_MESSAGES.get(ros_type, 0))
         self.decoded: deque[tuple[int, Any]] = deque()
         self._sizes: deque[int] = deque()  # bytes of the decoded messages
         self._bytes = 0
@@ -119,6 +131,8 @@ class _Topic:
         """Remove headers and decoded messages that arrived before a time, except latched descriptions."""
         while self.headers and self.headers[0].arrived < before:
             self.headers.popleft()
+        while self.evidence and self.evidence[0][0] < before:
+            self.evidence.popleft()
         while self.type in _DECODED_TYPES and self.decoded and self.decoded[0][0] < before:
             self._drop_oldest()
 
@@ -260,6 +274,11 @@ class LiveObserver:
             joint_states=tuple(
                 _joints(topic, start) for topic in self._topics.values() if topic.type == "sensor_msgs/msg/JointState"
             ),
+            poses=self._evidence(ODOMETRY, start, observed_poses),
+            imus=self._evidence(IMU, start, observed_imu),
+            cameras=self._evidence(
+                CAMERA_INFO, start, lambda topic, messages, rename: observed_camera(topic, messages[-1], rename)
+            ),
             clock=self._clock(start),
             travel=self._delays_by_node(),
             log=tuple(
@@ -365,6 +384,8 @@ class LiveObserver:
             subscription = self._subscribe(name, ros_type, _LATCHED, _WHOLE_MESSAGE)
         elif ros_type in _DECODED_TYPES:
             subscription = self._subscribe(name, ros_type, _ANY_PUBLISHER, _WHOLE_MESSAGE)
+        elif ros_type in _EVIDENCE_MESSAGES:
+            subscription = self._subscribe(name, ros_type, _ANY_PUBLISHER, _MAX_EVIDENCE)
         elif name in self._more_topics or (ros_type not in _LARGE_TYPES and begins_with_header(ros_type)):
             subscription = self._subscribe(name, ros_type, _ANY_PUBLISHER, HEADER_BYTES)
         else:
@@ -387,6 +408,18 @@ class LiveObserver:
             if header is not None:
                 stamp, frame = header
                 topic.add_header(_ReceivedHeader(frame.lstrip("/"), stamp, arrived, writer))
+                topic.evidence.append((arrived, data))
+
+    def _evidence(
+        self, ros_type: str, start: int, convert: Callable[[str, Sequence[Any], Callable[[str], str]], _Evidence | None]
+    ) -> tuple[_Evidence, ...]:
+        """Return what the latest messages on each topic of a type show."""
+        found = []
+        for topic in self._topics.values():
+            rows = ((data, arrived, 0) for arrived, data in topic.evidence if arrived >= start)
+            messages = [message for *_, message in _decode(ros_type, rows)] if topic.type == ros_type else []
+            found.append(convert(topic.name, messages, self._rename) if messages else None)
+        return tuple(one for one in found if one is not None)
 
     def _decoded_messages(self, ros_type: str) -> list[tuple[int, Any]]:
         return [pair for topic in self._topics.values() if topic.type == ros_type for pair in topic.decoded]

@@ -176,7 +176,7 @@ class ObservedImu:
 
 @dataclass(frozen=True, eq=False)
 class ObservedCamera:
-    """The first CameraInfo of a topic.
+    """One CameraInfo of a topic.
 
     Attributes:
         topic: The topic on which it was published.
@@ -243,9 +243,9 @@ class Observation:
         descriptions: The robot descriptions, in the order of arrival.
         joint_states: The joint states, one entry per topic.
         positions: The positions in messages with poses, one entry per topic; recordings only.
-        poses: The poses of odometry topics, one entry per topic; recordings only.
-        imus: The first messages of each IMU; recordings only.
-        cameras: The first CameraInfo of each topic; recordings only.
+        poses: The poses of odometry topics, one entry per topic.
+        imus: Some messages of each IMU.
+        cameras: One CameraInfo of each topic: the first one of a recording, the latest one of a live graph.
         clock: Simulated time, or None without /clock.
         travel: The transport times of the transforms of each publisher, measured with the clocks of two machines; only
         live.

@@ -34,10 +34,12 @@ __all__ = [
     "Correction",
     "Explanation",
     "all_rpy_angles",
+    "angle_text",
     "corrections",
     "explain",
     "explain_mutual_difference",
     "inverse_poses",
+    "length_text",
     "rotation_text",
 ]
 
@@ -103,11 +105,11 @@ class Explanation(NamedTuple):
 
     def text(self, other: str, pose: str = "the pose") -> str:
         """Return the explanation as a sentence: the mistake, the remaining difference, and the condition."""
-        subject, within = pose, f"{_length(self.meters)} and {_angle(self.radians)}"
+        subject, within = pose, f"{length_text(self.meters)} and {angle_text(self.radians)}"
         if np.isnan(self.meters):
-            subject, within = f"the rotation of {pose}", _angle(self.radians)
+            subject, within = f"the rotation of {pose}", angle_text(self.radians)
         elif np.isnan(self.radians):
-            subject, within = f"the translation of {pose}", _length(self.meters)
+            subject, within = f"the translation of {pose}", length_text(self.meters)
         return f"{subject} agrees with {other} within {within} if {self.reading}"
 
 
@@ -577,11 +579,23 @@ def _origin(place: Array) -> list[Array]:
 # Figures
 
 
-def _length(meters: float) -> str:
+def length_text(meters: float) -> str:
+    """Return a distance in millimeters, or from one meter in meters.
+
+    Example:
+        >>> length_text(2.5e-13), length_text(0.0042), length_text(0.0973), length_text(1738.4)
+        ('0 mm', '4.2 mm', '97 mm', '1740 m')
+    """
     if meters < 1.0:
         return f"{round(meters * 1e3, 2 if meters < 1e-2 else 0):g} mm"
-    return f"{meters:.3g} m"
+    return f"{float(f'{meters:.3g}'):g} m"
 
 
-def _angle(radians: float) -> str:
+def angle_text(radians: float) -> str:
+    """Return an angle in degrees, with three decimal places.
+
+    Example:
+        >>> angle_text(pi / 7)
+        '25.714 degrees'
+    """
     return f"{round(degrees(radians), 3):g} degrees"

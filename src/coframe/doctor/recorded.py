@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 from itertools import islice
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -13,21 +13,25 @@ from coframe.bags import from_yaml
 from coframe.bags.namespaces import TransformChoice, namespace_of
 from coframe.bags.recording import open_with_choice
 from coframe.bags.transforms import ingest_for, is_static
-from coframe.cameras import CameraError, CameraModel
 from coframe.doctor._joints import joint_states
+from coframe.doctor._message_evidence import (
+    CAMERA_INFO,
+    IMU,
+    ODOMETRY,
+    observed_camera,
+    observed_imu,
+    observed_poses,
+)
 from coframe.doctor._sampled_points import sampled_points
 from coframe.doctor.collector import Collector
 from coframe.doctor.observation import (
     DEFAULT_CACHE,
     NEVER,
     Observation,
-    ObservedCamera,
     ObservedClock,
     ObservedEndpoint,
-    ObservedImu,
     ObservedJointStates,
     ObservedLogLine,
-    ObservedPoses,
     ObservedPositions,
     Sensor,
     TopicFacts,
@@ -48,16 +52,14 @@ if TYPE_CHECKING:
 
 __all__ = ["collecting_callback", "observe_recording"]
 
+_Evidence = TypeVar("_Evidence")
 _MAX_DECODED = 2000  # limit of messages per topic
 _MAX_CAMERA_INFOS = 1
 _MAX_DESCRIPTIONS = 10
-_NORM_TOLERANCE = 5e-3  # how far a quaternion is off length 1 in tf2
-_ODOMETRY, _IMU = "nav_msgs/msg/Odometry", "sensor_msgs/msg/Imu"
-_CAMERA_INFO = "sensor_msgs/msg/CameraInfo"
 _PART_COUNT, _MESSAGES_PER_PART = 20, 25  # parts of a topic that are looked at, and successive messages in each
 _MIN_RATE = 1.0  # Hz; what is published more slowly, such as goals, need not be on one track
 _POSE_FIELDS: dict[str, Callable[[Any], Any]] = {
-    "nav_msgs/msg/Odometry": lambda message: message.pose.pose.position,
+    ODOMETRY: lambda message: message.pose.pose.position,
     "geometry_msgs/msg/PoseStamped": lambda message: message.pose.position,
     "geometry_msgs/msg/PoseWithCovarianceStamped": lambda message: message.pose.pose.position,
 }
@@ -199,9 +201,14 @@ class _Facts:
             for name in self._topics_of_type({"sensor_msgs/msg/JointState"})
             if (joints := self._joints(name)) is not None
         ]
-        self.poses = [poses for name in self._topics_of_type({_ODOMETRY}) if (poses := self._poses(name)) is not None]
-        self.imus = [imu for name in self._topics_of_type({_IMU}) if (imu := self._imu(name)) is not None]
-        self.cameras = [c for name in self._topics_of_type({_CAMERA_INFO}) for c in self._cameras(name)]
+        self.poses = self._evidence(ODOMETRY, observed_poses)
+        self.imus = self._evidence(IMU, observed_imu)
+        self.cameras = [
+            camera
+            for name in self._topics_of_type({CAMERA_INFO})
+            for message in self._decode_first(name, _MAX_CAMERA_INFOS)
+            if (camera := observed_camera(name, message, recording.frame)) is not None
+        ]
         self.log = tuple(line for name in self._topics_of_type(_LOG_TYPES) for line in self._log_lines(name))
 
     def _publishers(self, topic: str) -> tuple[ObservedEndpoint, ...]:
@@ -275,64 +282,15 @@ class _Facts:
         except (AttributeError, TypeError, ValueError, OverflowError):
             return None
 
-    def _poses(self, topic: str) -> ObservedPoses | None:
-        """Return the first poses of an odometry topic, or None if its messages have other fields or frames."""
-        try:
-            rows = [
-                (message.header, message.child_frame_id, message.pose.pose)
-                for message in self._decode_first(topic, _MAX_DECODED)
-            ]
-            frames = {(str(header.frame_id).lstrip("/"), str(child).lstrip("/")) for header, child, _ in rows}
-            stamps = [int(header.stamp.sec) * SECOND + header.stamp.nanosec for header, _, _ in rows]
-            points = [[pose.position.x, pose.position.y, pose.position.z] for *_, pose in rows]
-            turns = [[getattr(pose.orientation, name) for name in "xyzw"] for *_, pose in rows]
-            values = np.concatenate([np.array(points, np.float64), np.array(turns, np.float64)], axis=1)
-            stamp = np.array(stamps, dtype=np.int64)
-        except (AttributeError, TypeError, ValueError, OverflowError):
-            return None
-        if len(frames) != 1:
-            return None
-        with np.errstate(all="ignore"):
-            length = np.linalg.norm(values[:, 3:], axis=1, keepdims=True)
-            good = np.isfinite(values).all(axis=1) & (np.abs(length[:, 0] - 1.0) < _NORM_TOLERANCE)
-            values[:, 3:] /= length
-        (frame, child), rename = frames.pop(), self._recording.frame
-        return ObservedPoses(topic, rename(frame), rename(child), stamp[good], values[good])
-
-    def _imu(self, topic: str) -> ObservedImu | None:
-        """Return the first messages of an IMU, or None if they have other fields."""
-        frame = self._recording.first_frame(topic).lstrip("/")
-        try:
-            pairs = [
-                [
-                    [getattr(one, axis) for axis in "xyz"]
-                    for one in (message.linear_acceleration, message.angular_velocity)
-                ]
-                for message in self._decode_first(topic, _MAX_DECODED)
-            ]
-            values = np.array(pairs, dtype=np.float64).reshape(-1, 2, 3)
-        except (AttributeError, TypeError, ValueError, OverflowError):
-            return None
-        values = values[np.isfinite(values).all(axis=(1, 2))]
-        return ObservedImu(topic, self._recording.frame(frame), values[:, 0], values[:, 1]) if frame else None
-
-    def _cameras(self, topic: str) -> Iterator[ObservedCamera]:
-        """Yield the first CameraInfo of a topic that has a size and a frame."""
-        for message in self._decode_first(topic, _MAX_CAMERA_INFOS):
-            try:
-                frame = self._recording.frame(str(message.header.frame_id).lstrip("/"))
-                d = tuple(float(value) for value in getattr(message, "d" if hasattr(message, "d") else "D"))
-                name = str(message.distortion_model)
-                try:
-                    model, problem = CameraModel.from_info(message), ""
-                except CameraError as error:
-                    model, problem = None, str(error)
-            except (AttributeError, TypeError, ValueError, OverflowError):
-                return
-            # Drivers without a calibration publish zeros, which is correct.
-            is_calibrated = model is not None or any(d)
-            yield ObservedCamera(topic, frame, name, d, model, problem if is_calibrated else "")
-            return
+    def _evidence(
+        self, ros_type: str, convert: Callable[[str, Iterable[Any], Callable[[str], str]], _Evidence | None]
+    ) -> list[_Evidence]:
+        """Return what the first messages on each topic of a type show."""
+        found = (
+            convert(name, self._decode_first(name, _MAX_DECODED), self._recording.frame)
+            for name in self._topics_of_type({ros_type})
+        )
+        return [one for one in found if one is not None]
 
     def _log_lines(self, topic: str) -> Iterator[ObservedLogLine]:
         received = self._recording.received(topic)

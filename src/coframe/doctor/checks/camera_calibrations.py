@@ -12,6 +12,7 @@ from coframe.analysis.static_command import static_command
 from coframe.cameras import LENS_NAMES
 from coframe.cameras.lenses import EquidistantLens, PolynomialLens
 from coframe.cameras.model_names import canonical_name
+from coframe.doctor._camera_axes import optical_frame_below
 from coframe.doctor._finding import Finding, Severity
 from coframe.doctor._rules import replace_mount
 from coframe.doctor._stereo_evidence import stereo_contradictions
@@ -35,24 +36,33 @@ _MAX_CENTER_ERROR = 0.12  # of half an image side, by which a principal point ma
 def find(observation: Observation) -> Iterator[Finding]:
     """Yield findings for the CameraInfo of each topic, and for stereo pairs."""
     for camera in observation.cameras:
-        for text, fix in _contradictions(camera):
+        for text, fix in (*_wrong_frame(observation, camera), *_contradictions(camera)):
             yield Finding(
                 code=CODE, severity=Severity.WARNING, text=f"{camera.topic}: {text}", fix=fix, topic=camera.topic
             )
     for found in stereo_contradictions(observation):
-        rules, command = [], ""
-        if found.edge is not None and found.pose is not None:
-            pose = np.round(found.pose, 9)
-            rules.append(replace_mount(found.edge.child, pose))
-            command = f" Then the mount is `{static_command(*found.edge.key, pose.tolist())}`."
+        mounts = [(edge, np.round(pose, 9)) for edge, pose in found.mounts]
+        commands = " and ".join(f"`{static_command(*edge.key, pose.tolist())}`" for edge, pose in mounts)
+        are = "the mount is" if len(mounts) == 1 else "the mounts are"
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
             text=f"{found.topic}: {found.text}",
-            fix=f"{found.fix}{command}",
-            edge=found.edge.key if found.edge is not None else None,
+            fix=f"{found.fix} Then {are} {commands}." if mounts else found.fix,
+            edge=mounts[0][0].key if mounts else None,
             topic=found.topic,
-            choices=tuple(rules),
+            # Two wrong mounts need both rules, which is no choice.
+            choices=tuple(replace_mount(edge.child, pose) for edge, pose in mounts if len(mounts) == 1),
+        )
+
+
+def _wrong_frame(observation: Observation, camera: ObservedCamera) -> Iterator[tuple[str, str]]:
+    """Yield a CameraInfo in the frame of the camera's body, although an optical frame exists."""
+    optical = None if "optical" in camera.frame.lower() else optical_frame_below(observation, camera.frame)
+    if optical is not None:
+        yield (
+            f"its frame {camera.frame!r} is the body of the camera, and pixels are in its optical frame {optical!r}",
+            f"Set header.frame_id of the CameraInfo and of the images to {optical!r}.",
         )
 
 

@@ -47,7 +47,7 @@ def find(observation: Observation) -> Iterator[Finding]:
     """Yield findings for edges that do not move, on any topic."""
     mounts = [edge for edge in observation.edges if edge.static or edge.constant]
     for edge in mounts:
-        turned = list(_wrong_optical_axes(observation, edge)) if is_optical(edge) else []
+        turned = list(_wrong_optical_axes(observation, edge)) if is_optical(observation, edge) else []
         yield from turned or _find_degrees_as_radians(edge)
         yield from _find_other_units(edge, mounts)
     yield from _find_below_ground(observation)
