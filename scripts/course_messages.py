@@ -37,7 +37,11 @@ MODULES = (
     SOURCE / "doctor" / "checks" / "late_listeners.py",
 )
 # Here only the arguments of Language.text and Language.label are shown to students.
-CALLERS = (SOURCE / "cli" / "lab.py", COURSE / "handbook.py", COURSE / "translation" / "language.py")
+CALLERS = (
+    *(SOURCE / "cli" / name for name in ("lab.py", "lab_class.py")),
+    COURSE / "handbook.py",
+    COURSE / "translation" / "language.py",
+)
 # Arguments of these functions are not shown, and neither are values of these names.
 _NO_TEXT = {"compile", "module_program", "replace", "rpartition", "write"}
 _NO_TEXT_NAMES = {"_FAILURES", "_UNKNOWN_FRAME"}
@@ -148,12 +152,15 @@ def grader_messages() -> Iterator[str]:
         assigned = [node for node in ast.walk(tree) if isinstance(node, ast.Assign)]
         values = [node.value for node in assigned if getattr(node.targets[0], "id", "") in spoken]
         visitor = Sentences()
-        visitor.visit_words([argument for call in calls if _is_shown(call) for argument in call.args] + values)
+        shown = [call for call in calls if _is_shown(call)]
+        arguments = [argument for call in shown for argument in (*call.args, *(each.value for each in call.keywords))]
+        visitor.visit_words(arguments + values)
         yield from visitor.found
 
 
 def _is_shown(call: ast.Call) -> bool:
-    return isinstance(call.func, ast.Attribute) and call.func.attr in {"text", "label"}
+    name = getattr(call.func, "attr", getattr(call.func, "id", ""))
+    return name in ({"text", "label"} if isinstance(call.func, ast.Attribute) else {"_MisuseError"})
 
 
 def stub_messages() -> Iterator[str]:

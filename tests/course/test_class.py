@@ -199,6 +199,21 @@ def check_canvas_import(path):
     assert all(row[0] and (row[5] == "" or float(row[5]) >= 0) for row in table[2:])
 
 
+def test_one_folder_for_all_students_does_not_fit_the_variants_of_a_roster(tmp_path):
+    for name in ("Ada Lovelace", "Zoë Ångström", "Bob Missing"):
+        (tmp_path / "class" / name).mkdir(parents=True)
+    (tmp_path / "roster.csv").write_text(ROSTER, encoding="utf-8")
+    words = ("--roster", str(tmp_path / "roster.csv"))
+    rows, output = grade(tmp_path / "class", tmp_path, *words)
+    assert "3 of 3 submissions have a different variant in lab.json than in the roster" in output
+    assert {row["variant"] for row in rows} == {
+        str(each.variant) for each in read_roster(tmp_path / "roster.csv").students
+    }
+    rows, output = grade(tmp_path / "class", tmp_path, *words, "--no-roster-variants")
+    assert "different variant" not in output
+    assert [row["variant"] for row in rows[:3]] == ["", "", ""]
+
+
 def test_the_worksheets_of_platforms_are_filled_in(tmp_path):
     moodle = roster_of(WORKSHEET, tmp_path)
     table = moodle_table(

@@ -187,9 +187,9 @@ def test_the_commands_speak_german(tmp_path, monkeypatch):
 
 
 def test_errors_are_in_the_language_of_the_command(tmp_path):
-    def error_of(*words):
+    def error_of(*words, code=1):
         result = CliRunner().invoke(app, ["lab", *words])
-        assert result.exit_code == 1
+        assert result.exit_code == code
         assert isinstance(result.exception, SystemExit), "a traceback"
         return result.output
 
@@ -203,6 +203,18 @@ def test_errors_are_in_the_language_of_the_command(tmp_path):
     again = error_of("new", place, "--language", "de")
     assert "enthält bereits" in again
     assert "nichts wird überschrieben" in again
+    for words, problem, advice in (
+        (["check", place, "--moodle", "m.csv"], "nur für eine Klasse", "Ergänzen Sie --all"),
+        (["check", place, "--only", "x"], "unbekanntes Kriterium x", "Kriterien: static"),
+        (["check", "--all", place, "--canvas", "c.csv"], "brauchen die Teilnehmer", "Ergänzen Sie --roster DATEI."),
+        (["new", place, "--zip"], "--zip gilt für eine Klasse", "lassen Sie --zip weg"),
+        (["break", "3", "--answer", "x"], "'x' bezeichnet nicht genau einen Fehler", "Fehler: "),
+        (["break"], "entweder eine Nummer oder --random SEED", "Nummern: 1 bis "),
+        (["handbook", "99"], "Es gibt kein Kapitel 99", "Kapitel: 1 bis "),
+    ):
+        output = error_of(*words, "--language", "de", code=2)
+        assert problem in output
+        assert advice in output
     for words in (["break", "3", "--answer", "x"], ["check", place], ["handbook"], ["new", place]):
         assert "no language '../../x'" in error_of(*words, "--language", "../../x")
 

@@ -100,11 +100,11 @@ def new(folder: Path, variant: int | None, roster: Path | None, as_zip: bool, la
 
     Example: coframe lab new my_lab --variant 4711
     """
-    if roster is None and as_zip:
-        fail("--zip applies to a class", "Add --roster, or omit --zip.", code=2)
-    if roster is not None and variant is not None:
-        fail("--variant and --roster exclude each other", "The variants are in the roster.", code=2)
     with run_to_completion(), _in_language(language) as chosen:
+        if roster is None and as_zip:
+            raise _MisuseError("--zip applies to a class", hint="Add --roster, or omit --zip.")
+        if roster is not None and variant is not None:
+            raise _MisuseError("--variant and --roster exclude each other", hint="The variants are in the roster.")
         if roster is not None:
             students = read_roster(roster)
             places = create_class(folder, students, as_zip=as_zip, language=chosen)
@@ -143,10 +143,10 @@ def run(
     Example: coframe lab run my_lab
     """
     seconds = None if duration is None else duration.seconds
-    if complete and joints:
-        fail("--joints applies to step 2", "Omit it, or omit --complete.", code=2)
     student = _folder(folder)
     with run_until_interrupted(), _in_language(None, recorded_language(student)) as language:
+        if complete and joints:
+            raise _MisuseError("--joints applies to step 2", hint="Omit it, or omit --complete.")
         programs = programs_of(student, COMPLETE_TREE_FILES if complete else NODE_FILES)
         programs += simulation(joints=joints, gripper=gripper)
         sentence = "Your nodes are running with a simulated robot. Press Ctrl-C to stop them. The viewer shows them:"
@@ -163,6 +163,11 @@ def run(
 )
 @variant_option
 @roster_option
+@click.option(
+    "--no-roster-variants",
+    is_flag=True,
+    help="With --roster: use the variants in lab.json, or --variant, and not those of the roster.",
+)
 @click.option("--resume", is_flag=True, help="With -o: keep the results of an earlier run for unchanged submissions.")
 @click.option("--moodle", metavar="FILE", type=PATH, help="With --roster: write the grades for Moodle's gradebook.")
 @click.option("--canvas", metavar="FILE", type=PATH, help="With --roster: write the grades for Canvas's gradebook.")
@@ -203,6 +208,7 @@ def check(
     only: tuple[str, ...],
     variant: int | None,
     roster: Path | None,
+    no_roster_variants: bool,
     resume: bool,
     moodle: Path | None,
     canvas: Path | None,
@@ -225,29 +231,24 @@ def check(
     Example: coframe lab check my_lab
     """
     chosen = tuple(only or CRITERIA)
-    if unknown := set(chosen) - set(CRITERIA):
-        fail(f"--only: unknown criterion {', '.join(sorted(unknown))}", f"Criteria: {', '.join(CRITERIA)}.", code=2)
     formatted = ((gradescope, formats.gradescope), (classroom, formats.classroom))
     for_one: dict[str, object] = {"--record": record, "--gradescope": gradescope, "--classroom": classroom}
     for_class: dict[str, object] = {"--roster": roster, "--resume": resume, "--moodle": moodle, "--canvas": canvas}
     for_class |= {"--feedback": feedback, "--similarity": similarity, "-o": output}
-    if everyone:
-        _refuse_given(for_one, "only for a single folder", "Omit it, or omit --all.")
-    else:
-        _refuse_given(for_class, "only for a class", "Add --all, or use --json for the report of one folder.")
-    if (moodle or canvas) and not roster:
-        fail("--moodle and --canvas need the students", "Add --roster FILE.", code=2)
-    if resume and not output:
-        fail("--resume continues an earlier run", "Add -o with the file of that run.", code=2)
     student = _folder(folder)
     with run_to_completion(), _in_language(language, "" if everyone else recorded_language(student)) as spoken:
+        _check_criteria(chosen)
+        if everyone:
+            _check_class_options(for_one, for_class, no_roster_variants=no_roster_variants)
+        else:
+            _check_options_of_one(for_class, no_roster_variants=no_roster_variants)
         if problem := isolation_problem():
             warn(spoken.text(problem))
         if everyone:
             grade_class(
                 ClassOptions(
                     folder or Path("lab"), output, jobs, variant, chosen, roster, resume, moodle, canvas, column,
-                    feedback, feedback_format, similarity, as_json, language,
+                    feedback, feedback_format, similarity, as_json, language, no_roster_variants,
                 )
             )  # fmt: skip
             return
@@ -266,10 +267,32 @@ def check(
             print(printable(line))
 
 
-def _refuse_given(options: dict[str, object], reason: str, hint: str) -> None:
-    """Fail if one of the options is given."""
+def _check_criteria(chosen: Iterable[str]) -> None:
+    if unknown := set(chosen) - set(CRITERIA):
+        raise _MisuseError(
+            f"--only: unknown criterion {', '.join(sorted(unknown))}", hint=f"Criteria: {', '.join(CRITERIA)}."
+        )
+
+
+def _check_class_options(for_one: dict[str, object], for_class: dict[str, object], *, no_roster_variants: bool) -> None:
+    """Raise an error if options for one folder are given with --all, or if one option lacks another one."""
+    if given := [name for name, value in for_one.items() if value]:
+        raise _MisuseError(f"{', '.join(given)}: only for a single folder", hint="Omit it, or omit --all.")
+    if (for_class["--moodle"] or for_class["--canvas"]) and not for_class["--roster"]:
+        raise _MisuseError("--moodle and --canvas need the students", hint="Add --roster FILE.")
+    if no_roster_variants and not for_class["--roster"]:
+        raise _MisuseError("--no-roster-variants applies to a roster", hint="Add --roster FILE, or omit it.")
+    if for_class["--resume"] and not for_class["-o"]:
+        raise _MisuseError("--resume continues an earlier run", hint="Add -o with the file of that run.")
+
+
+def _check_options_of_one(for_class: dict[str, object], *, no_roster_variants: bool) -> None:
+    """Raise an error if options for a class are given for one folder."""
+    options = {**for_class, "--no-roster-variants": no_roster_variants}
     if given := [name for name, value in options.items() if value]:
-        fail(f"{', '.join(given)}: {reason}", hint, code=2)
+        raise _MisuseError(
+            f"{', '.join(given)}: only for a class", hint="Add --all, or use --json for the report of one folder."
+        )
 
 
 def _write_reports(
@@ -334,12 +357,12 @@ def break_(
 
     Example: coframe lab break 3
     """
-    if (number is None) is (seed is None):
-        fail("give either a number or --random SEED", f"Numbers: 1 to {len(FAULTS)}.", code=2)
-    chosen = draw(seed or "") if number is None else number
-    words = f"--random {shlex.quote(seed or '')}" if number is None else f"{number}"
     seconds = None if duration is None else duration.seconds
     with run_until_interrupted(), _in_language(language, recorded_language(_folder(None))) as spoken:
+        if (number is None) is (seed is None):
+            raise _MisuseError("give either a number or --random SEED", hint=f"Numbers: 1 to {len(FAULTS)}.")
+        chosen = draw(seed or "") if number is None else number
+        words = f"--random {shlex.quote(seed or '')}" if number is None else f"{number}"
         if answer is not None:
             _print_verdict(chosen, answer, spoken)
             return
@@ -377,10 +400,10 @@ def handbook(
             _write_handbook(output, chapter, spoken, slides=slides, browser=browser)
             return
         if slides:
-            fail("--slides writes a file", "Add -o FOLDER.", code=2)
+            raise _MisuseError("--slides writes a file", hint="Add -o FOLDER.")
         found = {each.number: each for each in chapters()}
         if chapter is not None and chapter not in found:
-            fail(f"There is no chapter {chapter}", f"Chapters: 1 to {len(found)}.", code=2)
+            raise _MisuseError(f"There is no chapter {chapter}", hint=f"Chapters: 1 to {len(found)}.")
         from rich.markdown import Markdown  # noqa: PLC0415 - only for this text
 
         file = contents() if chapter is None else found[chapter].file
@@ -403,12 +426,18 @@ def _write_handbook(folder: Path, chapter: int | None, language: Language, *, sl
         open_browser(page.resolve().as_uri())
 
 
+class _MisuseError(CourseError):
+    """Options or arguments that do not fit together."""
+
+
 @contextlib.contextmanager
 def _in_language(code: str | None, recorded: str = "") -> Iterator[Language]:
     """Choose the language of a command, in which its errors are raised, too."""
     language = choose_language(code, recorded)
     try:
         yield language
+    except _MisuseError as error:
+        fail(language.text(str(error)), language.text(error.hint), code=2)
     except CourseError as error:
         raise CourseError(language.text(str(error)), hint=language.text(error.hint)) from None
 
@@ -462,7 +491,7 @@ def _fault_names(language: Language) -> str:
 def _print_verdict(number: int, answer: str, language: Language) -> None:
     given, fault = named_fault(answer, language), FAULTS[number - 1]
     if given is None:
-        fail(f"{answer!r} does not name one fault", f"Faults: {_fault_names(language)}.", code=2)
+        raise _MisuseError(f"{answer!r} does not name one fault", hint=f"Faults: {_fault_names(language)}.")
     if given is not fault:
         hint = "Start the system again, and run coframe doctor in a second terminal."
         fail(language.text("The answer is wrong."), language.text(hint))

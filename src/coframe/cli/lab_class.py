@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from coframe._files.complete_files import write_complete
 from coframe._files.temporary_folders import temporary_folder
 from coframe._output.escaping import csv_cell
-from coframe.cli.output import printable, report_console
+from coframe.cli.output import printable, report_console, warn
 from coframe.cli.progress import item_progress
 from coframe.course import formats
-from coframe.course.assignment import recorded_language
+from coframe.course.assignment import read_assignment, recorded_language
 from coframe.course.checking import check_class
 from coframe.course.class_folder import Submission, submissions
 from coframe.course.class_journal import Journal, fingerprint
@@ -25,16 +25,16 @@ from coframe.course.roster import Roster, Student, read_roster
 from coframe.course.similarity import similarities
 from coframe.course.submitted import check_outputs
 from coframe.course.translation.language import choose_language
+from coframe.errors import CourseError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from coframe.course.translation.language import Language
-    from coframe.errors import CourseError
-
 __all__ = ["ClassOptions", "grade_class"]
 
 _MISSING = "There is no submission."
+_MIN_SUBMISSIONS = 3  # to which the roster is compared
 
 
 class ClassOptions(NamedTuple):
@@ -56,6 +56,7 @@ class ClassOptions(NamedTuple):
         similarity: The CSV file for similar programs, or None.
         as_json: Whether to print all reports.
         language: The code of the language of the feedback, or None for that of each folder.
+        no_roster_variants: Whether the variants are those in lab.json, or `variant`, and not those of the roster.
     """
 
     folder: Path
@@ -73,6 +74,7 @@ class ClassOptions(NamedTuple):
     similarity: Path | None
     as_json: bool
     language: str | None
+    no_roster_variants: bool
 
 
 def grade_class(options: ClassOptions) -> None:
@@ -80,6 +82,8 @@ def grade_class(options: ClassOptions) -> None:
     roster = None if options.roster is None else read_roster(options.roster)
     with temporary_folder("coframe-class-") as scratch:
         grading = _Grading(options, roster, submissions(options.folder, Path(scratch)))
+        if problem := grading.variants_warning(choose_language(options.language)):
+            warn(problem)
         try:
             grading.run()
         finally:
@@ -107,7 +111,27 @@ class _Grading:
 
     def _variant(self, name: str) -> int | None:
         student = self.students[name]
-        return self.options.variant if student is None else student.variant
+        return self.options.variant if student is None or self.options.no_roster_variants else student.variant
+
+    def variants_warning(self, language: Language) -> str:
+        """Return a warning if most submissions have another variant in lab.json than in the roster, or ""."""
+        known = [name for name, student in self.students.items() if student is not None]
+        other = [name for name in known if not self._has_variant(name)]
+        if self.options.no_roster_variants or len(known) < _MIN_SUBMISSIONS or 2 * len(other) <= len(known):
+            return ""
+        return language.text(
+            f"{len(other)} of {len(known)} submissions have a different variant in lab.json than in the roster, whose "
+            "variants count. If the students did not get the folders of coframe lab new --roster, add "
+            "--no-roster-variants."
+        )
+
+    def _has_variant(self, name: str) -> bool:
+        """Return whether a submission has the variant with which it is graded, or none that can be read."""
+        try:
+            found = read_assignment(self.submissions[name].folder)
+        except CourseError:
+            return True
+        return found.variant == self.variants[name]
 
     def run(self) -> None:
         """Grade what is not yet known. Each result is written when it is known."""

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import time
 from array import array
 from typing import TYPE_CHECKING
 
@@ -22,9 +23,12 @@ from coframe.transform.transform import Transform
 from sensor_msgs.msg import LaserScan, PointCloud2
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
-    from coframe.course._world import Received
+    from coframe.course._program import StudentProgram
+    from coframe.course._world import Received, World
 
 __all__ = ["check"]
 
@@ -38,6 +42,10 @@ _TOLERANCE = 1e-3  # meters
 _SCAN_AGE = STEP // 2  # age of a scan and its transform when they are published; no value of the clock is such a stamp
 # Seconds of real time from a scan to the transform of its stamp. On a robot, this is usually 10 to 50 ms.
 _TRANSFORM_DELAY = 0.03
+# Seconds of real time from a scan to the end of the step in which its transform is sent. If the machine is too busy for
+# that, a lookup with a usual timeout fails, which is not a mistake of the program.
+_MAX_FAIR_TIME = 0.1
+_MIN_FAIR_SCANS, _MAX_MORE_SCANS = 10, 30  # on the gripper
 _GRIPPER = "gripper_link"
 _GRIPPER_MOUNT = Transform.from_rpy(
     (0.1, 0.02, 0.03), roll=0.4, pitch=0.25, yaw=-0.6, source=_GRIPPER, target="end_effector"
@@ -83,6 +91,33 @@ class _Scans:
     def __init__(self) -> None:
         self.sent: dict[int, SentScan] = {}
         self.responses: list[bool] = []
+        self._slow: set[int] = set()
+        self._open: tuple[int, float] | None = None
+
+    def add(self, stamp: int, scan: SentScan) -> None:
+        """Add the scan that is published now."""
+        self.sent[stamp] = scan
+        self._open = stamp, time.monotonic()
+
+    def end_step(self) -> None:
+        """Note whether the last scan and its transform were sent in time. Call it after the step of the scan."""
+        if self._open is not None:
+            stamp, begun = self._open
+            if time.monotonic() - begun > _MAX_FAIR_TIME:
+                self._slow.add(stamp)
+            self._open = None
+
+    def fair(self) -> int:
+        """Return the number of scans on the gripper whose transform was sent in time."""
+        return sum(
+            stamp not in self._slow for stamp, scan in self.sent.items() if scan.message.header.frame_id == _GRIPPER
+        )
+
+    def judged(self, clouds: list[Received]) -> int:
+        """Return the number of scans that should be clouds: those that were sent in time, or became one."""
+        answered = {stamp_ns(scan.message) for each in clouds if (scan := self.find(each)) is not None}
+        slow = self._slow if self.fair() >= _MIN_FAIR_SCANS else set()
+        return len(self.sent.keys() - (slow - answered))
 
     def find(self, received: Received) -> SentScan | None:
         """Return the scan of a cloud: the one with its stamp, or the last one before its arrival."""
@@ -105,10 +140,11 @@ def check(task: Task) -> Sheet:
 
     def publish(now: int) -> None:
         # The clock is ahead of the scan, and the scan of its transform: neither now() nor the latest transform fits.
+        scans.end_step()
         if now % _SCAN_PERIOD == 0:
             frame = task.assignment.lidar.frame if len(scans.sent) < _SCANS else _GRIPPER
             scan = _scan(robot, now - _SCAN_AGE, frame)
-            scans.sent[now - _SCAN_AGE] = scan
+            scans.add(now - _SCAN_AGE, scan)
             world.publish("/scan", scan.message)
             responded = world.responds(_TRANSFORM_DELAY, _TRANSFORM_DELAY)
             if frame == _GRIPPER:  # The mount of a lidar on the base does not arrive later.
@@ -133,12 +169,21 @@ def check(task: Task) -> Sheet:
             clouds = world.watch(topic, PointCloud2)
             world.publish_transforms(robot.mounts(), world.now, static=True)
             world.run(0.5, publish_arm)
-            world.run(2 * _SCANS * _SCAN_PERIOD / 1e9, publish)
+            _publish_scans(world, program, scans, publish)
             world.run(0.5, publish_arm)
             names = sorted({info.node_name for info in world.publishers_of(topic)})
         _check_messages(sheet, scans, clouds, topic, names)
         _check_points(sheet, scans, clouds)
     return sheet
+
+
+def _publish_scans(world: World, program: StudentProgram, scans: _Scans, publish: Callable[[int], None]) -> None:
+    """Publish the scans, and more of them on the gripper if the machine was too busy for many."""
+    world.run(2 * _SCANS * _SCAN_PERIOD / 1e9, publish)
+    for _ in range(_MAX_MORE_SCANS):
+        if scans.fair() >= _MIN_FAIR_SCANS or not program.is_running():
+            return
+        world.run(_SCAN_PERIOD / 1e9, publish)
 
 
 def _scan(robot: _Robot, stamp: int, frame: str) -> SentScan:
@@ -201,13 +246,14 @@ def _check_messages(sheet: Sheet, scans: _Scans, clouds: list[Received], topic: 
         else "the stamp is now(): the points were measured earlier. Use scan.header.stamp",
         read=_READ,
     )
-    answered = min(len(clouds), len(scans.sent))
+    judged = scans.judged(clouds)
+    answered = min(len(clouds), judged)
     sheet.check(
         2,
         "at least 95 % of the scans become clouds",
-        bool(scans.sent) and answered >= 0.95 * len(scans.sent),
+        bool(scans.sent) and answered >= 0.95 * judged,
         expected="a cloud for each scan; 5 % may be missing",
-        observed=f"{answered} of {len(scans.sent)} scans",
+        observed=f"{answered} of {judged} scans",
         cause=_lost_cause(scans, clouds),
         read="handbook chapter 5, time, interpolation, waiting",
     )
