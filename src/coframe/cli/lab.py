@@ -175,7 +175,7 @@ def run(
     "--column",
     metavar="NAME",
     default=ASSIGNMENT,
-    help=f"With --canvas: column of the assignment. [default: {ASSIGNMENT}]",
+    help="With --canvas: column of the assignment.",
 )
 @click.option("--feedback", metavar="FOLDER", type=PATH, help="With --all: write a file for each student to FOLDER.")
 @click.option(
@@ -183,7 +183,7 @@ def run(
     metavar="FORMAT",
     type=click.Choice(FEEDBACK_FORMATS),
     default=FEEDBACK_FORMATS[0],
-    help="With --feedback: html, with figures, or txt. [default: html]",
+    help="With --feedback: html, with figures, or txt.",
 )
 @click.option("--similarity", metavar="FILE", type=PATH, help="With --all: write pairs of similar programs as CSV.")
 @click.option("--json", "as_json", is_flag=True, help="Print the report as JSON.")
