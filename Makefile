@@ -18,7 +18,7 @@ PYTEST := env -u PYTHONDONTWRITEBYTECODE PYTHONPYCACHEPREFIX=$(CURDIR)/build/pyc
 BUILD_TOOLS = $(shell sed -n 's/^requires = \[\(.*\)\]/\1/p' pyproject.toml | sed 's/", "/" "/g')
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build build-split demo test test-browser test-zenoh test-fastdds test-shared test-slow test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint licenses audit typecheck format conformance bench generate generate-check pictures page page-check clean
+.PHONY: help setup build build-split demo test test-browser test-zenoh test-fastdds test-shared test-slow test-arm test-long test-ros test-ros-wheels sanitize sanitize-suite fuzz faults soak docs lint licenses audit typecheck format conformance bench generate generate-check pictures page page-check clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-18s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -89,6 +89,9 @@ $(VENV)/.stores: pyproject.toml | $(STAMP)
 
 test-slow: $(STAMP) $(VENV)/.oracle $(VENV)/.stores $(VENV)/.installers $(VENV)/.docs ## run the tests that take minutes
 	$(PYTEST) -m "slow and not long" $(ARGS)
+
+test-arm: $(STAMP) ## cross-compile the wheel for 64-bit ARM and test it there, emulated, in a root of Debian below build/ (Linux 6.7 or newer)
+	$(BIN)/python -m scripts.arm $(ARGS)
 
 test-ros: $(STAMP) ## run programs with the sourced ROS 2 and with coframe, and compare their outputs
 	COFRAME_TEST_ROS=1 $(PYTEST) -p no:launch_testing -p no:launch_testing_ros_pytest_entrypoint tests/interop tests/course/test_sourced_ros.py -v $(ARGS)
@@ -182,8 +185,8 @@ bench: $(VENV)/.bench ## compare coframe with its peers in one table; fail when 
 	@$(BIN)/python -E -m benchmarks $(ARGS)
 
 .PHONY: wheels sdist test-root test-free-threaded release-check
-wheels: ## build, repair and test wheels into dist/: PYTHONS="python3.12 /path/to/python"; default: all found
-	$(ANY_PYTHON) scripts/wheels.py $(PYTHONS)
+wheels: ## build, repair and test wheels into dist/: PYTHONS="python3.12 /path/to/python", default: all found; ARGS="--machine aarch64"
+	$(ANY_PYTHON) scripts/wheels.py $(ARGS) $(PYTHONS)
 
 sdist: ## build the source distribution into dist/
 	$(ANY_PYTHON) scripts/wheels.py --sdist

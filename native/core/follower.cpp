@@ -5,7 +5,7 @@
 
 #include "core/fork_guard.hpp"
 
-#ifdef __unix__
+#ifndef _WIN32  // macOS does not define __unix__
 #include <unistd.h>
 #endif
 
@@ -16,7 +16,7 @@ namespace {
 constexpr std::int64_t kMaxPause = 1'000'000'000;
 
 std::int64_t current_process() {
-#ifdef __unix__
+#ifndef _WIN32
   return getpid();
 #else
   return 0;

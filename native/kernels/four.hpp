@@ -7,12 +7,13 @@
 #include <cstring>
 
 #include "kernels/level.hpp"
+#include "kernels/shuffle.hpp"
 
 namespace coframe::COFRAME_LEVEL {
 
 namespace {
 
-#if defined(__AVX2__) && defined(__GNUC__)
+#if defined(__AVX2__) && defined(COFRAME_SHUFFLE)
 
 using Four = double __attribute__((vector_size(32)));
 using Two = double __attribute__((vector_size(16)));
@@ -20,12 +21,7 @@ using Two = double __attribute__((vector_size(16)));
 // Returns the numbers of `v` at these indices.
 template <int A, int B, int C, int D>
 COFRAME_INLINE Four ordered(const Four& v) {
-#if defined(__clang__) || __GNUC__ >= 12
-  return __builtin_shufflevector(v, v, A, B, C, D);
-#else
-  using Places = long long __attribute__((vector_size(32)));
-  return __builtin_shuffle(v, Places{A, B, C, D});
-#endif
+  return COFRAME_SHUFFLE(v, v, A, B, C, D);
 }
 
 #else

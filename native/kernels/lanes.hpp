@@ -9,15 +9,14 @@
 #include <cstring>
 
 #include "kernels/level.hpp"
+#include "kernels/shuffle.hpp"
 
 #if defined(__AVX2__)
 #include <immintrin.h>
 #endif
 
 // Compilers without vector extensions, such as MSVC, process one number at a time.
-#if !defined(__has_builtin)
-#define COFRAME_LANES 1
-#elif !__has_builtin(__builtin_shufflevector)
+#if !defined(COFRAME_SHUFFLE)
 #define COFRAME_LANES 1
 #elif defined(__AVX512F__)
 #define COFRAME_LANES 8
@@ -80,13 +79,13 @@ COFRAME_INLINE Lanes load_pairs(const double* const* rows, std::size_t offset) {
 #if COFRAME_LANES == 2
   return load_pair(rows[0] + offset);
 #else
-  const auto join = [](Pair a, Pair b) { return __builtin_shufflevector(a, b, 0, 1, 2, 3); };
+  const auto join = [](Pair a, Pair b) { return COFRAME_SHUFFLE(a, b, 0, 1, 2, 3); };
   const auto low = join(load_pair(rows[0] + offset), load_pair(rows[2] + offset));
 #if COFRAME_LANES == 4
   return low;
 #else
   const auto high = join(load_pair(rows[4] + offset), load_pair(rows[6] + offset));
-  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+  return COFRAME_SHUFFLE(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
 #endif
 #endif
 }
@@ -94,8 +93,8 @@ COFRAME_INLINE Lanes load_pairs(const double* const* rows, std::size_t offset) {
 // Loads the numbers `offset` and `offset` + 1 of kLanes rows into `first` and `second`.
 COFRAME_INLINE void load_columns(const double* const* rows, std::size_t offset, Lanes& first, Lanes& second) {
   const Lanes even = load_pairs(rows, offset), odd = load_pairs(rows + 1, offset);
-  first = __builtin_shufflevector(even, odd, COFRAME_EVEN);
-  second = __builtin_shufflevector(even, odd, COFRAME_ODD);
+  first = COFRAME_SHUFFLE(even, odd, COFRAME_EVEN);
+  second = COFRAME_SHUFFLE(even, odd, COFRAME_ODD);
 }
 
 COFRAME_INLINE void store_pair(const Pair& pair, double* numbers) { __builtin_memcpy(numbers, &pair, sizeof(pair)); }
@@ -119,8 +118,8 @@ COFRAME_INLINE void store_pairs(const Lanes& pairs, double* const* rows, std::si
 
 template <void (*kStore)(const Pair&, double*)>
 COFRAME_INLINE void store_columns_by(const Lanes& first, const Lanes& second, double* const* rows, std::size_t offset) {
-  store_pairs<kStore>(__builtin_shufflevector(first, second, COFRAME_EVEN), rows, offset);
-  store_pairs<kStore>(__builtin_shufflevector(first, second, COFRAME_ODD), rows + 1, offset);
+  store_pairs<kStore>(COFRAME_SHUFFLE(first, second, COFRAME_EVEN), rows, offset);
+  store_pairs<kStore>(COFRAME_SHUFFLE(first, second, COFRAME_ODD), rows + 1, offset);
 }
 COFRAME_INLINE void store_columns(const Lanes& first, const Lanes& second, double* const* rows, std::size_t offset) {
   store_columns_by<store_pair>(first, second, rows, offset);

@@ -7,6 +7,7 @@
 #include "kernels/lanes.hpp"
 #include "kernels/level.hpp"
 #include "kernels/rotation.hpp"
+#include "kernels/shuffle.hpp"
 
 #if COFRAME_LANES > 1
 
@@ -49,10 +50,10 @@ COFRAME_INLINE void convert(const FourDoubles& from, FourFloats& to) {
 COFRAME_INLINE Vector<FourDoubles> load_four(const char* data, std::ptrdiff_t step) {
   const FourFloats a = load_floats(data), b = load_floats(data + step), c = load_floats(data + 2 * step),
                    d = load_floats(data + 3 * step);
-  const FourFloats ab = __builtin_shufflevector(a, b, 0, 4, 1, 5), cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
-  const FourFloats x = __builtin_shufflevector(ab, cd, 0, 1, 4, 5), y = __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
-  const FourFloats ab_z = __builtin_shufflevector(a, b, 2, 6, 3, 7), cd_z = __builtin_shufflevector(c, d, 2, 6, 3, 7);
-  const FourFloats z = __builtin_shufflevector(ab_z, cd_z, 0, 1, 4, 5);
+  const FourFloats ab = COFRAME_SHUFFLE(a, b, 0, 4, 1, 5), cd = COFRAME_SHUFFLE(c, d, 0, 4, 1, 5);
+  const FourFloats x = COFRAME_SHUFFLE(ab, cd, 0, 1, 4, 5), y = COFRAME_SHUFFLE(ab, cd, 2, 3, 6, 7);
+  const FourFloats ab_z = COFRAME_SHUFFLE(a, b, 2, 6, 3, 7), cd_z = COFRAME_SHUFFLE(c, d, 2, 6, 3, 7);
+  const FourFloats z = COFRAME_SHUFFLE(ab_z, cd_z, 0, 1, 4, 5);
   Vector<FourDoubles> points;
   convert(x, points.x);
   convert(y, points.y);
@@ -67,8 +68,8 @@ COFRAME_INLINE void store_four(const Vector<FourDoubles>& points, char* data, st
   convert(points.y, y);
   convert(points.z, z);
   // x and y of a point are written as one number of eight bytes.
-  const Pair low = (Pair)__builtin_shufflevector(x, y, 0, 4, 1, 5);
-  const Pair high = (Pair)__builtin_shufflevector(x, y, 2, 6, 3, 7);
+  const Pair low = (Pair)COFRAME_SHUFFLE(x, y, 0, 4, 1, 5);
+  const Pair high = (Pair)COFRAME_SHUFFLE(x, y, 2, 6, 3, 7);
   const double xy[4] = {low[0], low[1], high[0], high[1]};
   for (std::size_t k = 0; k < 4; ++k) {
     const float last = z[k];

@@ -6,6 +6,8 @@
 #include <memory>
 
 #ifdef _WIN32
+#define NOMINMAX  // Otherwise it defines macros min and max, which the files after it in a unity build cannot use.
+#define WIN32_LEAN_AND_MEAN
 #include <windows.h>
 #else
 #include <dlfcn.h>

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Substitutions and conditions, in Python and as text of XML and YAML files."""
 
+import os
+import subprocess
 import sys
 from pathlib import Path
 
@@ -197,3 +199,19 @@ def test_the_error_of_xacro_comes_first(perform, tmp_path):
         file.write_text(head + text)
         with pytest.raises(SubstitutionFailure, match=f"^{error}"):
             perform(Command(["xacro ", str(file)]))
+
+
+def test_the_output_of_a_command_is_utf_8_whatever_the_system_uses(tmp_path):
+    """Windows has another encoding, and so does a Python whose locale is not set."""
+    description = tmp_path / "robot.py"
+    description.write_bytes("print(\"<robot name='Gr\u00fcn'/>\")\n".encode())
+    program = f"""
+from launch import LaunchContext
+from launch.substitutions import Command
+command = Command([{PYTHON!r}, " -X utf8 ", {str(description)!r}])
+print(ascii(command.perform(LaunchContext())))
+"""
+    settings = {"PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0", "LC_ALL": "C", "PYTHONPATH": ""}
+    command = [sys.executable, "-c", program]
+    output = subprocess.check_output(command, env={**os.environ, **settings}, text=True)
+    assert output == ascii("<robot name='Gr\u00fcn'/>\n") + "\n"

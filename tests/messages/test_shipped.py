@@ -130,6 +130,13 @@ def test_names_that_do_not_exist_are_import_errors() -> None:
         find("moonlight_msgs/msg/State")
 
 
+def reference_seconds() -> float:
+    """Return what a fixed loop takes: 15 ms on a desktop, ten times as much on an emulated processor."""
+    begin = time.process_time()
+    sum(number * number for number in range(200_000))
+    return time.process_time() - begin
+
+
 def test_importing_packages_creates_no_class_and_costs_little(monkeypatch: pytest.MonkeyPatch) -> None:
     names = [name for package in AS_DATA for name in modules(package)]
     for name in names:
@@ -137,13 +144,14 @@ def test_importing_packages_creates_no_class_and_costs_little(monkeypatch: pytes
             monkeypatch.delitem(sys.modules, loaded, raising=False)
     known = dict(registry.classes)
     find_shipped.cache_clear()
+    limit = max(0.1, 5 * reference_seconds())
     begin = time.process_time()
     for name in names:
         importlib.import_module(name)
     seconds = time.process_time() - begin
     assert registry.classes == known
     assert len(names) >= 35
-    assert seconds < 0.1, f"{len(names)} modules took {seconds:.3f} s of processor time"
+    assert seconds < limit, f"{len(names)} modules took {seconds:.3f} s of processor time, not {limit:.3f} s"
 
 
 def test_threads_that_use_a_class_first_get_the_same_one(monkeypatch: pytest.MonkeyPatch) -> None:

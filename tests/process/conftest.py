@@ -11,9 +11,6 @@ from pathlib import Path
 
 import pytest
 
-pytest.importorskip("dds_library", reason="the processes speak DDS")
-pytest.importorskip("rosless", reason="the independent RTPS program")
-
 OBSERVER = Path(__file__).with_name("observer.py")
 
 
@@ -68,6 +65,13 @@ class Processes:
         result = subprocess.run(command, capture_output=True, text=True, timeout=90, check=False)
         assert result.returncode == 0, result.stderr
         return json.loads(result.stdout)
+
+
+@pytest.fixture(autouse=True, scope="session")
+def _programs() -> None:
+    # Not at the top of this file: pytest ends with a traceback if the folder is named on the command line.
+    pytest.importorskip("dds_library", reason="the processes speak DDS")
+    pytest.importorskip("rosless", reason="the independent RTPS program")
 
 
 @pytest.fixture

@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import os
+import sys
+import time
 import uuid
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -13,6 +15,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 __all__ = ["complete_or_absent", "write_complete"]
+
+_PATIENCE = 2.0  # seconds; virus scanners and other writers have a new file open for less
+_POLL_PERIOD = 0.02
 
 
 @contextmanager
@@ -33,7 +38,7 @@ def complete_or_absent(path: str | os.PathLike[str]) -> Iterator[Path]:
     part = path.with_name(f".{path.name}.{uuid.uuid4().hex[:12]}.part")
     try:
         yield part
-        part.replace(path)
+        _replace(part, path)
     except OSError as error:
         if error.filename == str(part):
             error.filename, error.filename2 = str(path), None
@@ -50,6 +55,20 @@ def write_complete(path: str | os.PathLike[str], content: bytes) -> None:
     """
     with complete_or_absent(path) as part:
         part.write_bytes(content)
+
+
+def _replace(part: Path, path: Path) -> None:
+    """Rename a file. Windows refuses this while another program has the old file open: wait shortly for that."""
+    deadline = time.monotonic() + _PATIENCE
+    while True:
+        try:
+            part.replace(path)
+        except PermissionError:
+            if sys.platform != "win32" or time.monotonic() > deadline:
+                raise
+            time.sleep(_POLL_PERIOD)
+        else:
+            return
 
 
 def _remove(path: Path) -> None:

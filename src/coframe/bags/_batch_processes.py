@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import os
 import pickle
 import queue
 import subprocess
@@ -12,6 +11,7 @@ import threading
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import TYPE_CHECKING, Any
 
+from coframe._process.own_group import own_group
 from coframe._process.python_children import python_command, python_environment
 
 if TYPE_CHECKING:
@@ -90,18 +90,12 @@ class _Worker:
     """A process that receives the arguments of calls and sends their results."""
 
     def __init__(self) -> None:
-        # Only the parent receives Ctrl-C; it then ends the workers.
-        own_group: Any = (
-            {"start_new_session": True}
-            if os.name == "posix"
-            else {"creationflags": getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0)}
-        )
         self._process = subprocess.Popen(  # noqa: S603 - a module of coframe
             python_command("coframe.bags._batch_worker"),
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             env=python_environment(),
-            **own_group,
+            **own_group(),  # Only the parent receives Ctrl-C; it then ends the workers.
         )
         self._send(sys.path)
 

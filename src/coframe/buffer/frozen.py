@@ -6,6 +6,7 @@ from __future__ import annotations
 import io
 import mmap
 import os
+import sys
 import zlib
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
@@ -48,7 +49,7 @@ class FrozenBuffer(Buffer):
         with open_file(self._path) as opened_file:
             header = read_header(self._path, opened_file, os.fstat(opened_file.fileno()).st_size)
             covariances = read_covariances(self._path, opened_file, header)
-            memory = self._copy_small_file(opened_file) or mmap.mmap(opened_file.fileno(), 0, access=mmap.ACCESS_READ)
+            memory = self._copy(opened_file) or mmap.mmap(opened_file.fileno(), 0, access=mmap.ACCESS_READ)
         self._use(memory, header, covariances)
 
     def _use(self, memory: mmap.mmap, header: Header, covariances: bytes) -> None:
@@ -73,10 +74,13 @@ class FrozenBuffer(Buffer):
         except ValueError as error:
             raise damaged_file_error(self._path, str(error)) from None
 
-    def _copy_small_file(self, file: BinaryIO) -> mmap.mmap | None:
-        """Return a copy of a small file, which other programs cannot change, or None for a large file."""
+    def _copy(self, file: BinaryIO) -> mmap.mmap | None:
+        """Return a copy of a small file, which other programs cannot change, or None for one that can be mapped.
+
+        On Windows, a mapped file cannot be replaced by :meth:`coframe.Buffer.save`.
+        """
         size = os.fstat(file.fileno()).st_size
-        if size > MAX_COPIED:
+        if size > MAX_COPIED and sys.platform != "win32":
             return None
         memory = mmap.mmap(-1, size)
         file.seek(0)
@@ -125,9 +129,9 @@ def load(path: str | os.PathLike[str], *, verify: bool = False) -> FrozenBuffer:
     """Open a file that :meth:`coframe.Buffer.save` wrote, as a read-only buffer; samples are read on first use.
 
     Args:
-        path: The file. Files up to 1 MiB are copied; larger ones are mapped, and must not change while they are open.
-            :meth:`coframe.Buffer.save` never modifies a file, but replaces it with a new one. To replace it with a copy
-            of another file, use ``cp --remove-destination`` or rename the copy.
+        path: The file. Files up to 1 MiB, and on Windows all files, are copied; larger ones are mapped, and must not
+            change while they are open. :meth:`coframe.Buffer.save` never modifies a file, but replaces it with a new
+            one. To replace it with a copy of another file, use ``cp --remove-destination`` or rename the copy.
         verify: Whether to read the whole file first and compare it with its checksums. By default only the header and
             the table are checked.
 

@@ -13,6 +13,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from coframe._process.own_group import own_group
 from coframe.course import _processes
 from coframe.course._confinement import MAX_MEMORY, MAX_OUTPUT
 from coframe.course._patience import FairTimeout
@@ -30,6 +31,7 @@ MAX_PROCESSES = 8
 _MAX_FILES = 10_000
 _OUTPUT_VIOLATION = f"The program printed more than {MAX_OUTPUT >> 20} MB and was stopped."
 _STOP_TIMEOUT = 3.0  # seconds between SIGINT and SIGKILL
+_KILLED = 9  # SIGKILL, which Windows does not have
 _LAST_LINES = 8
 _TRACEBACK_LINE = re.compile(r'^  File "([^"\n]{1,1000})", line (\d{1,7})', re.MULTILINE)
 _EXCEPTION = re.compile(r"[A-Za-z_][\w.]{0,200}(?:: |$)")  # not indented, in contrast to the lines of the code
@@ -88,7 +90,7 @@ class StudentProgram:
                 stderr=log,
                 cwd=self._confinement.working_folder,
                 env=self._confinement.environment(self._home_folder),
-                start_new_session=True,  # Only the grader receives Ctrl-C, and all its processes are one group.
+                **own_group(),  # Only the grader receives Ctrl-C, and all its processes are one group.
             )
 
     def run(self, seconds: float, words: Sequence[str], request: bytes) -> int:
@@ -109,7 +111,7 @@ class StudentProgram:
                 time.sleep(_POLL_PERIOD)
         finally:
             self.stop()
-        return -signal.SIGKILL if self._exit_code is None else self._exit_code
+        return -_KILLED if self._exit_code is None else self._exit_code
 
     def is_running(self) -> bool:
         """Return whether the program is running, and end it if it has exceeded a limit."""

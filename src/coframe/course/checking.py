@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
 from coframe._files.temporary_folders import temporary_folder
+from coframe._process.own_group import own_group
 from coframe._process.python_children import python_command
 from coframe.course._sheet import GradeReport, Sheet
 from coframe.course._view import private_folders
@@ -89,7 +90,7 @@ def check_folder(
                 stderr=errors,
                 cwd=scratch,
                 env=isolated_environment(number, scratch),
-                start_new_session=True,
+                **own_group(),
             )
         assert process.stdin is not None
         assert process.stdout is not None

@@ -13,6 +13,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe._process.own_group import own_group
 from coframe._process.python_children import python_command, python_environment
 from coframe.errors import CourseError
 
@@ -110,10 +111,10 @@ def running(programs: Sequence[NamedCommand], write: Callable[[str, str], None])
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.STDOUT,
-                text=True,
+                encoding="utf-8",
                 errors="replace",
-                env=python_environment() | EXACT_FIELDS | {"PYTHONUNBUFFERED": "1"},
-                start_new_session=True,  # Only this process receives Ctrl-C; it stops the others.
+                env=python_environment() | EXACT_FIELDS | {"PYTHONUNBUFFERED": "1", "PYTHONIOENCODING": "utf-8"},
+                **own_group(),  # Only this process receives Ctrl-C; it stops the others.
             )
             processes.append((program, process))
             thread = threading.Thread(

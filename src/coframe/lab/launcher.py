@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe._files.temporary_folders import temporary_folder
+from coframe._process.own_group import own_group
 from coframe._process.python_children import python_command, python_environment
 
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = ["COMPLETE_LAB", "DESCRIBED_LAB", "FailedNode", "Launcher", "NodeCommand"]
 
-STOP_TIMEOUT = 5.0  # seconds between SIGTERM and SIGKILL
+STOP_TIMEOUT = 5.0  # seconds until SIGKILL
 
 
 class NodeCommand(NamedTuple):
@@ -105,14 +106,14 @@ class Launcher:
         for name, process in self._processes.items():
             code = process.poll()
             if code is not None:
-                lines = self._log(name).read_text(errors="replace").splitlines()
+                lines = self._log(name).read_text(encoding="utf-8", errors="replace").splitlines()
                 yield FailedNode(name, code, "\n".join(lines[-10:]))
 
     def stop(self) -> None:
-        """Stop all nodes with SIGTERM, and with SIGKILL after a timeout."""
+        """Stop all nodes by closing their standard input, and with SIGKILL after a timeout."""
         for process in self._processes.values():
-            if process.poll() is None:
-                process.terminate()
+            if process.stdin:
+                process.stdin.close()
         deadline = time.monotonic() + STOP_TIMEOUT
         for process in self._processes.values():
             try:
@@ -120,9 +121,6 @@ class Launcher:
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()
-        for process in self._processes.values():
-            if process.stdin:
-                process.stdin.close()
         self._processes.clear()
         self._folder.cleanup()
 
@@ -139,6 +137,5 @@ class Launcher:
                 stdout=log,
                 stderr=log,
                 env=self._environment,
-                # Ctrl-C must reach only the launcher, which then stops the nodes.
-                start_new_session=True,
+                **own_group(),  # Ctrl-C must reach only the launcher, which then stops the nodes.
             )

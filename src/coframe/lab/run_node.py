@@ -17,7 +17,12 @@ def _stop_with_launcher() -> None:
     """Wait until standard input is closed, then stop this process."""
     while os.read(0, 1024):
         pass
-    os.kill(os.getpid(), signal.SIGTERM)
+    # On Windows, os.kill would end the process at once: other participants would see its node until its lease ends.
+    main_thread = threading.main_thread().ident
+    if main_thread is not None and hasattr(signal, "pthread_kill"):
+        signal.pthread_kill(main_thread, signal.SIGTERM)
+    else:
+        signal.raise_signal(signal.SIGTERM)
 
 
 def main() -> None:

@@ -117,7 +117,8 @@ def _run(command: list[str], *, capture: bool) -> subprocess.CompletedProcess[st
         command,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT if capture else subprocess.PIPE,
-        text=True,
+        encoding="utf-8",  # that of robot descriptions, whatever the one of this system is
+        errors="replace",
         check=False,
     )
 
