@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// COFRAME_SHUFFLE(a, b, places...): the numbers of two vectors in another order, where those of `b` are counted after those
-// of `a`. Not defined for compilers without vector extensions.
+// COFRAME_SHUFFLE(a, b, places...): the numbers of two vectors in another order, where those of `b` are counted after
+// those of `a`. Not defined for compilers without vector extensions.
 #pragma once
 
 #if !defined(__has_builtin)

@@ -55,7 +55,7 @@ set -e
 rm -rf /environment
 python3 -m venv --without-pip /environment
 pip=$(ls /usr/share/python-wheels/pip-*.whl)
-/environment/bin/python "$pip/pip" install --quiet --no-index --find-links /packages "$@"
+/environment/bin/python "$pip/pip" install --quiet --no-compile --no-index --find-links /packages "$@"
 """
 
 
