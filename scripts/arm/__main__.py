@@ -41,11 +41,17 @@ PLATFORMS = [f"manylinux{name}_aarch64" for name in ("2014", "_2_17", "_2_24", "
 EXTRAS = ["bags", "viewer", "robots", "cli", "params", "pdf"]  # `all`, but for cyclonedds: it has no wheels for ARM
 TEST_PACKAGES = ("pytest", "hypothesis", "scipy", "rosbags", "mcap")
 
-# What the tests in the root are about, and their arguments for pytest. All of tests/ would take hours.
+# What the tests in the root are about, and which they are. All of tests/ would take hours.
 TESTS = {
-    "the installed package": ["tests/installed"],
-    "core": ["tests/core"],
-    "messages": ["tests/messages"],
+    "the installed package": "installed",
+    "core": "core",
+    "messages": "messages",
+    "sensors": "sensors/test_kernels.py sensors/test_deskew.py sensors/test_scans.py robots/test_kinematics.py",
+    "recordings": "bags/test_real.py bags/test_formats.py bags/test_writer.py",
+    "DDS": "wire/test_library.py wire/test_tf_reader.py wire/test_connection.py wire/test_shared_transforms.py",
+    "rclpy": "rclpy/test_services.py rclpy/test_pubsub.py rclpy/test_parameters.py rclpy/test_executors.py",
+    "launch": "launch/test_substitutions.py launch/test_service.py launch/test_launch_ros.py",
+    "commands": "cli/test_echo.py cli/test_help.py cli/test_streams.py cli/test_command_rows.py",
 }
 # Tests between a process of this machine and an emulated one, run by this machine's Python.
 BOTH = ["-m", "", "-k", "another_python", "tests/wire/test_library_versions.py"]
@@ -71,7 +77,10 @@ def main() -> None:
         return
     if arguments:
         sys.exit(run(shlex.join(arguments), namespace.command(*namespace.in_root(*emulated(arguments)))))
-    results = [run(name, namespace.command(*namespace.in_root(*emulated(tests)))) for name, tests in TESTS.items()]
+    results = []
+    for name, files in TESTS.items():
+        tests = ["-n", "2", "--dist", "loadfile", *(f"tests/{file}" for file in files.split())]
+        results.append(run(name, namespace.command(*namespace.in_root(*emulated(tests)))))
     results.append(run("both processors", namespace.command(*native)))
     sys.exit(max(results))
 
@@ -101,7 +110,7 @@ def prepare() -> tuple[Namespace, list[str]]:
     step("packages", lambda: download_packages(packages))
     step("wheel", build_wheel)
     step("installation", lambda: install(namespace, packages))
-    other = shlex.join(namespace.in_root("/environment/bin/python"))
+    other = shlex.join(["chroot", str(root), "/environment/bin/python"])  # with the variables of the test
     return namespace, ["env", f"COFRAME_TEST_OTHER_PYTHON={other}", sys.executable, "-m", "pytest", *PYTEST, *BOTH]
 
 

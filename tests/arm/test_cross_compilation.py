@@ -23,6 +23,7 @@ set_target_properties(ddsc PROPERTIES VERSION 11.0.1 SOVERSION 11)
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="a library of Linux")
+@pytest.mark.timeout(600)
 def test_the_dds_library_of_another_processor_needs_no_strip_of_this_one(tmp_path):
     if shutil.which("cmake") is None or shutil.which("cc") is None:
         pytest.skip("needs CMake and a C compiler")

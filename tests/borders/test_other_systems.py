@@ -122,7 +122,9 @@ print(sum(f"{name}.".startswith(own) for name in sys.modules))
 @pytest.mark.slow
 @pytest.mark.parametrize("platform", ["win32", "darwin"])
 def test_every_module_can_be_imported_elsewhere(platform):
-    missing = [*LINUX.split(), *(POSIX.split() if platform == "win32" else ())]
+    # The owners of files are asked for only if os.name is "posix", which pathlib needs here.
+    posix = [name for name in POSIX.split() if name != "os.geteuid"]
+    missing = [*LINUX.split(), *(posix if platform == "win32" else ())]
     command = [sys.executable, "-W", "ignore", "-c", IMPORT_ALL, platform, " ".join(missing), ",".join(POSIX_MODULES)]
     *failed, imported = subprocess.check_output(command, text=True).splitlines()
     assert failed == []

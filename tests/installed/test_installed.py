@@ -10,7 +10,6 @@ import subprocess
 import sys
 import sysconfig
 import threading
-import time
 import urllib.request
 from pathlib import Path
 
@@ -42,15 +41,12 @@ def script(name):
     return str(Path(sysconfig.get_path("scripts")) / (f"{name}.exe" if os.name == "nt" else name))
 
 
-def connect():
-    """Connect in a new process; return whether that was possible, and how long it took in seconds."""
-    probe, start = "import coframe; coframe.connect().close()", time.monotonic()
-    done = subprocess.run([sys.executable, "-c", probe], capture_output=True, check=False, timeout=60)
-    return done.returncode == 0, time.monotonic() - start
+def dds_is_missing():
+    probe = "import coframe; coframe.connect().close()"
+    return subprocess.run([sys.executable, "-c", probe], capture_output=True, check=False, timeout=60).returncode != 0
 
 
-HAS_DDS, CONNECTING = connect()
-needs_dds = pytest.mark.skipif(not HAS_DDS, reason="this environment has no DDS library")
+needs_dds = pytest.mark.skipif(dds_is_missing(), reason="this environment has no DDS library")
 
 
 def moving():
@@ -191,13 +187,12 @@ rclpy.shutdown()
 @pytest.mark.usefixtures("domain_id")
 def test_the_demo_runs():
     pytest.importorskip("click", reason="needs coframe[cli]")
-    seconds = max(5, round(5 * CONNECTING))  # all nodes start in this time, also on a slow or emulated processor
     shown = subprocess.run(
-        [script("coframe"), "demo", "--duration", str(seconds), "--no-browser"],
+        [script("coframe"), "demo", "--duration", "5", "--no-browser"],
         capture_output=True,
         text=True,
         check=True,
-        timeout=100 + seconds,
+        timeout=100,
     ).stdout
     assert re.search(r"^http://127\.0\.0\.1:\d+/$", shown, re.MULTILINE)
     assert re.search(r"^ *camera_link +end_effector +static", shown, re.MULTILINE)
