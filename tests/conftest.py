@@ -22,7 +22,7 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 # The ports of higher domains are in the range from which the system takes ports for other sockets.
 _DOMAINS = 96
 _CLAIM_PORT = 31_500  # plus the domain: the TCP port that a test binds as long as it uses a domain
-_PATIENCE = 20.0  # seconds; two cores that others use too
+_PATIENCE = 60.0  # seconds; two cores that others use too
 _domain_ids = itertools.count(os.getpid())
 
 

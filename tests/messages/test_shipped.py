@@ -139,16 +139,20 @@ def reference_seconds() -> float:
 
 def test_importing_packages_creates_no_class_and_costs_little(monkeypatch: pytest.MonkeyPatch) -> None:
     names = [name for package in AS_DATA for name in modules(package)]
-    for name in names:
-        for loaded in (name, name.partition(".")[0]):
-            monkeypatch.delitem(sys.modules, loaded, raising=False)
     known = dict(registry.classes)
-    find_shipped.cache_clear()
     limit = max(0.1, 5 * reference_seconds())
-    begin = time.process_time()
-    for name in names:
-        importlib.import_module(name)
-    seconds = time.process_time() - begin
+
+    def import_again() -> float:
+        for name in names:
+            for loaded in (name, name.partition(".")[0]):
+                monkeypatch.delitem(sys.modules, loaded, raising=False)
+        find_shipped.cache_clear()
+        begin = time.process_time()
+        for name in names:
+            importlib.import_module(name)
+        return time.process_time() - begin
+
+    seconds = min(import_again() for _ in range(3))  # other processes share the caches of the processor
     assert registry.classes == known
     assert len(names) >= 35
     assert seconds < limit, f"{len(names)} modules took {seconds:.3f} s of processor time, not {limit:.3f} s"

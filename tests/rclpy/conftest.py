@@ -56,7 +56,7 @@ def wait_until() -> Callable[..., None]:
     def wait(
         condition: Callable[[], object],
         meanwhile: Callable[[], object] = lambda: time.sleep(0.005),
-        timeout: float = 10.0,
+        timeout: float = 30.0,
     ) -> None:
         deadline = time.monotonic() + timeout
         while not condition():

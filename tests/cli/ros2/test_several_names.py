@@ -10,6 +10,11 @@ import threading
 import pytest
 import yaml
 
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from std_msgs.msg import String
+
 NODE = "/robot1/program"
 
 
@@ -101,17 +106,24 @@ def test_echo_of_several_fields_and_of_elements(run):
     assert run("topic", "echo", "/point", "--once", "--clear", "--field", "point.x").endswith("1.5\n---\n")
 
 
-def test_publishing_the_messages_of_a_file(run, graph, tmp_path):
+def test_publishing_the_messages_of_a_file(run, tmp_path):
     file = tmp_path / "messages.yaml"
     file.write_text("data: first\n---\ndata: second\n---\n")
-    output = run("topic", "pub", "/commands", "std_msgs/msg/String", "--yaml-file", file, "-r", "50", "-w", "1")
+    received = []
+    with Context() as context:
+        # A subscription in the process of the publisher, because another process may discover the publisher too late.
+        node = rclpy.create_node("reader", context=context)
+        node.create_subscription(String, "/lines", lambda message: received.append(message.data), 10)
+        output = run("topic", "pub", "/lines", "std_msgs/msg/String", "--yaml-file", file, "-r", "50", "-w", "1")
+        executor = SingleThreadedExecutor(context=context)
+        executor.add_node(node)
+        while len(received) < 2:
+            executor.spin_once()
     assert "publishing #1: std_msgs.msg.String(data='first')" in output
     assert "publishing #2: std_msgs.msg.String(data='second')" in output
     assert "#3" not in output
-    received = iter(graph.stdout.readline, "")
-    assert "first\n" in received  # after the messages of other tests
-    assert next(received) == "second\n"
-    absent = run("topic", "pub", "/commands", "std_msgs/msg/String", "--yaml-file", tmp_path / "none", code=1)
+    assert received == ["first", "second"]
+    absent = run("topic", "pub", "/lines", "std_msgs/msg/String", "--yaml-file", tmp_path / "none", code=1)
     assert "cannot be read" in absent
 
 

@@ -12,7 +12,15 @@ import click
 from coframe.cli.declaration import PATH, argument
 from coframe.cli.options import NonNegativeDuration, topic_name
 from coframe.cli.output import fail
-from coframe.cli.ros2.graph import NO_WAIT, GraphCommand, graph_node, load_type, sim_time_option, spin_time_option
+from coframe.cli.ros2.graph import (
+    ENDPOINT_TIMEOUT,
+    NO_WAIT,
+    GraphCommand,
+    graph_node,
+    load_type,
+    sim_time_option,
+    spin_time_option,
+)
 from coframe.cli.ros2.qos import (
     QoSWords,
     depth_option,
@@ -119,6 +127,7 @@ def pub(
         fail("VALUES and --yaml-file cannot be combined", code=2)
     count = 1 if once else times
     with graph_node(spin_time, use_sim_time=use_sim_time, name=node_name or f"_coframe_pub_{os.getpid()}") as node:
+        from rclpy.duration import Duration  # noqa: PLC0415 - slow import
         from rosidl_runtime_py.utilities import get_message  # noqa: PLC0415 - slow import
 
         kind = load_type(message_type, get_message)
@@ -130,6 +139,7 @@ def pub(
         publisher = node.create_publisher(kind, topic_name, qos)
         _wait_for_subscriptions(publisher, (1 if count else 0) if wait_matching is None else wait_matching)
         _publish(node, publisher, messages, min(1.0 / rate, _MAX_PERIOD), print_every, count)
+        publisher.wait_for_all_acked(Duration(seconds=ENDPOINT_TIMEOUT))  # of a busy machine
         time.sleep(keep_alive.seconds)
 
 
