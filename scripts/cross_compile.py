@@ -2,7 +2,7 @@
 """Compile extension modules for Linux on another processor, with Zig's compiler (the package `ziglang`).
 
 Zig has the headers of every C library and its own C++ library, which it links statically. So the modules need no newer
-glibc than `GLIBC`, whatever the distribution of this machine is.
+glibc than `GLIBC`, regardless of the distribution of this machine.
 """
 
 from __future__ import annotations

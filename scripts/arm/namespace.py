@@ -71,7 +71,7 @@ class Namespace:
         return [*enter, *patterns, str(self._qemu), str(self._root), *mounts, "--", *map(str, words)]
 
     def in_root(self, *words: object) -> list[str]:
-        """Return a command for `command` that runs a command of the root, in an environment of its own."""
+        """Return a command for `command` that runs a command of the root, with VARIABLES only."""
         return ["chroot", str(self._root), "/usr/bin/env", "-i", *VARIABLES, *map(str, words)]
 
     def check(self) -> None:

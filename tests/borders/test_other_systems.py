@@ -138,15 +138,15 @@ def test_children_of_windows_have_a_group_of_their_own(monkeypatch):
     assert own_group() == {"creationflags": 0x200}
 
 
-# A node that says goodbye, where os.kill ends a process at once as on Windows.
+# A node that handles SIGTERM, where os.kill ends a process at once as on Windows.
 NODE = """
 import signal, sys, time
 
-def goodbye(number, frame):
-    print("goodbye", flush=True)
+def leave(number, frame):
+    print("left", flush=True)
     sys.exit()
 
-signal.signal(signal.SIGTERM, goodbye)
+signal.signal(signal.SIGTERM, leave)
 print("ready", flush=True)
 while True:
     time.sleep(0.01)
@@ -161,7 +161,7 @@ run_node.main()
 
 
 @pytest.mark.parametrize("start", ["from coframe.lab import run_node; run_node.main()", AS_ON_WINDOWS])
-def test_a_node_says_goodbye_when_its_launcher_closes_its_input(tmp_path, start):
+def test_a_node_leaves_in_order_when_its_launcher_closes_its_input(tmp_path, start):
     (tmp_path / "polite_node.py").write_text(NODE)
     process = subprocess.Popen(
         [sys.executable, "-c", start, "polite_node"],
@@ -171,7 +171,7 @@ def test_a_node_says_goodbye_when_its_launcher_closes_its_input(tmp_path, start)
         text=True,
     )
     assert process.stdout.readline() == "ready\n"
-    assert process.communicate(timeout=60)[0] == "goodbye\n"
+    assert process.communicate(timeout=60)[0] == "left\n"
     assert process.returncode == 0
 
 

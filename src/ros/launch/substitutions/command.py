@@ -117,7 +117,7 @@ def _run(command: list[str], *, capture: bool) -> subprocess.CompletedProcess[st
         command,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT if capture else subprocess.PIPE,
-        encoding="utf-8",  # that of robot descriptions, whatever the one of this system is
+        encoding="utf-8",  # that of robot descriptions; the system's may differ
         errors="replace",
         check=False,
     )
