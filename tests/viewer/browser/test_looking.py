@@ -69,6 +69,32 @@ def test_two_clicks_measure_the_distance_of_the_buffer(page):
     page.wait(lambda: not page.raw.locator("#measured").is_visible(), "the end of the measurement")
 
 
+def test_measured_points_are_forgotten_when_the_fixed_frame_changes(page):
+    page.key("a")
+    page.key("m")
+    page.wait(lambda: "click the first frame" in page.text("#measured"), "the first instruction")
+    box = page.raw.locator("#canvas").bounding_box()
+    page.raw.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] - 60)
+    page.wait(lambda: page.text("#measured").startswith("From ("), "a point of the ground")
+    page.raw.select_option("#fixed", "base")
+    page.wait(lambda: "click the first frame" in page.text("#measured"), "a new measurement")
+
+
+def test_pressing_the_timeline_of_live_data_is_not_at_a_time_of_an_earlier_zoom(page):
+    box = page.raw.locator(".scrub canvas").bounding_box()
+    left, middle = box["x"] + box["width"] * 0.02, box["y"] + box["height"] / 2
+    page.raw.mouse.move(left, middle)
+    for _ in range(8):
+        page.raw.mouse.wheel(0, -100)
+    page.key("l")
+    page.until("coframe.frames.base.position[0] > 9.9")
+    page.raw.mouse.move(box["x"] + box["width"] / 2, middle)
+    page.raw.mouse.down()
+    page.raw.mouse.move(box["x"] + box["width"] / 2 + 1, middle)
+    page.raw.mouse.up()
+    page.until("Math.abs(coframe.frames.base.position[0] - 5) < 0.5")
+
+
 def test_the_camera_keeps_its_distance_to_the_followed_frame(page):
     page.row("arm").locator(".name").click()
     page.key("f")

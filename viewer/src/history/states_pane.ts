@@ -156,6 +156,7 @@ export class StatesPane implements Pane {
       return range && range[0] + ((event.clientX - bounds.left) / bounds.width) * (range[1] - range[0]);
     };
     canvas.addEventListener("click", (event) => {
+      if (event.detail > 1) return; // The first click of a double-click may have moved the range.
       const at = timeAt(event);
       if (at !== null) this.model.setClock({ live: false, playing: false }, at);
     });

@@ -30,6 +30,8 @@ export class AddDisplay {
   private readonly list = h("div", { class: "add-list" });
   private grouping = "type";
   private graph: NodeGraph | null = null;
+  /** What the list contains, as text. */
+  private shown = "";
 
   constructor(
     private readonly model: Model,
@@ -87,15 +89,21 @@ export class AddDisplay {
     const wanted = this.search.value.trim().toLowerCase();
     const groups = this.grouping === "node" ? this.byNode() : this.byType();
     let left = MAX_ROWS;
-    const sections = [...groups].flatMap(([title, rows]) => {
+    const found = [...groups].flatMap(([title, rows]) => {
       const matching = rows.filter(({ kind, topic, type }) =>
         `${title} ${kind} ${topic ?? ""} ${type}`.toLowerCase().includes(wanted),
       );
-      const shown = matching.slice(0, Math.max(0, left));
+      const shown = matching.slice(0, Math.max(0, left)).map((row) => ({ ...row, isShown: this.isShown(row) }));
       left -= shown.length;
-      if (shown.length === 0) return [];
-      return [h("section", {}, h("h3", {}, shorten(title, 100)), ...shown.map((row) => this.row(row)))];
+      return shown.length ? [{ title, shown }] : [];
     });
+    // A button that is replaced between press and release is not clicked.
+    const text = JSON.stringify(found);
+    if (text === this.shown) return;
+    this.shown = text;
+    const sections = found.map(({ title, shown }) =>
+      h("section", {}, h("h3", {}, shorten(title, 100)), ...shown.map((row) => this.row(row, row.isShown))),
+    );
     this.list.replaceChildren(...(sections.length ? sections : [h("p", { class: "muted" }, "No topic matches.")]));
   }
 
@@ -125,9 +133,12 @@ export class AddDisplay {
     return groups;
   }
 
-  private row(row: Row): HTMLElement {
+  private isShown({ topic }: Row): boolean {
+    return topic !== null && this.displays.list.some(({ config }) => config.topic === topic);
+  }
+
+  private row(row: Row, isShown: boolean): HTMLElement {
     const { kind, topic, type } = row;
-    const isShown = topic !== null && this.displays.list.some(({ config }) => config.topic === topic);
     return h(
       "button",
       { type: "button", class: "add-row", data: { topic: topic ?? kind }, on: { click: () => this.choose(row) } },

@@ -92,7 +92,11 @@ export class Timeline {
     this.listen();
     model.on("frames", () => this.followPlayhead());
     model.on("stats", () => this.redraw());
-    model.on("clock", () => this.updateButtons());
+    model.on("clock", ({ live }) => {
+      // Otherwise the press that pauses live data would be at another time of the earlier zoom.
+      if (live) this.zoomedSpan = null;
+      this.updateButtons();
+    });
     model.on("hello", () => this.start());
     model.on("timeline", (message) => this.receive(message));
     new ResizeObserver(() => this.redraw()).observe(this.canvas.parentElement as HTMLElement);

@@ -153,7 +153,8 @@ export class Chart {
     let pressed = NaN;
     over.addEventListener("pointerdown", (event) => (pressed = event.clientX));
     over.addEventListener("click", (event) => {
-      if (Math.abs(event.clientX - pressed) >= CLICK_PX) return;
+      // The first click of a double-click may have moved the plot.
+      if (event.detail > 1 || Math.abs(event.clientX - pressed) >= CLICK_PX) return;
       this.events.seek(this.plot.posToVal(event.clientX - over.getBoundingClientRect().left, "x") * 1e9);
     });
     over.addEventListener("dblclick", () => this.events.reset());

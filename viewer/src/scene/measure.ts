@@ -42,6 +42,11 @@ export class Measure {
     this.chosen = [];
   }
 
+  /** Starts again if an end is a point, whose coordinates belong to another fixed frame. Frames stay. */
+  forgetPoints(): void {
+    if (this.chosen.some((end) => typeof end !== "string")) this.chosen = [];
+  }
+
   /** Adds a frame or a point; the third one starts a new measurement. */
   add(end: MeasuredEnd): void {
     if (this.chosen.length >= 2) this.chosen = [];

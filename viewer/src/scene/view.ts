@@ -110,6 +110,7 @@ export class View {
       this.refresh();
     });
     model.on("tree", () => this.refresh());
+    model.on("fixed", () => this.measure.forgetPoints());
     model.on("visibility", () => this.refresh());
     model.on("selection", () => this.refresh());
     model.on("relation", (relation) => {
