@@ -226,6 +226,8 @@ def test_a_display_that_is_too_large_for_the_file_is_thinned_or_omitted(walker, 
 class OneMessage:
     """A topic with one message."""
 
+    shortfall = ""
+
     def __init__(self, message):
         self.type = message.ROS_TYPE
         self._message = StampedMessage(1, BEGIN, lambda: message)
