@@ -21,7 +21,6 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import tomllib
 from scripts.arm.debian import UnavailableError, last_line, unpack
 from scripts.arm.namespace import Namespace
 
@@ -123,6 +122,8 @@ def step(name: str, call: Callable[[], bool]) -> None:
 
 def requirements() -> list[str]:
     """Return what is installed in the root besides coframe."""
+    import tomllib  # noqa: PLC0415 - Python 3.10 does not have it, and gets a sentence that says so
+
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     extras = project["optional-dependencies"]
     tests = [each for each in extras["dev"] if each.startswith(TEST_PACKAGES)]
