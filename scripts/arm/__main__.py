@@ -57,6 +57,7 @@ BOTH = ["-m", "", "-k", "another_python", "tests/wire/test_library_versions.py"]
 PYTEST = ["-q", "-rs", "-p", "no:cacheprovider", "--timeout", "900"]
 INSTALL = """
 set -e
+for name in passwd group; do cp /usr/share/base-passwd/$name.master /etc/$name; done
 rm -rf /environment
 python3 -m venv --without-pip /environment
 pip=$(ls /usr/share/python-wheels/pip-*.whl)
@@ -98,8 +99,8 @@ def prepare() -> tuple[Namespace, list[str]]:
     root, qemu = WORK / suite, WORK / "qemu"
     step("QEMU", lambda: unpack(qemu, QEMU_SUITE, "amd64", ["qemu-user"], only="./usr/bin/qemu-aarch64"))
     step("root", lambda: unpack(root, suite, "arm64", [*PACKAGES.split(), DDS[suite]]))
-    packages = WORK / f"packages-{suite}"
-    mounts = {"/project": ROOT, "/packages": packages, "/wheel": WORK / "wheel"}
+    packages, wheel = WORK / f"packages-{suite}", WORK / f"wheel-{suite}"
+    mounts = {"/project": ROOT, "/packages": packages, "/wheel": wheel}
     if (ROOT.parent / "shared").is_dir():
         mounts["/shared"] = ROOT.parent / "shared"
     for folder in mounts.values():
@@ -107,8 +108,8 @@ def prepare() -> tuple[Namespace, list[str]]:
     namespace = Namespace(root, qemu / "usr/bin/qemu-aarch64", mounts)
     namespace.check()
     step("packages", lambda: download_packages(packages))
-    step("wheel", build_wheel)
-    step("installation", lambda: install(namespace, packages))
+    step("wheel", lambda: build_wheel(wheel))
+    step("installation", lambda: install(namespace, packages, wheel))
     other = shlex.join(["chroot", str(root), "/environment/bin/python"])  # with the variables of the test
     return namespace, ["env", f"COFRAME_TEST_OTHER_PYTHON={other}", sys.executable, "-m", "pytest", *PYTEST, *BOTH]
 
@@ -151,9 +152,9 @@ def download_packages(folder: Path) -> bool:
     return True
 
 
-def build_wheel() -> bool:
-    """Cross-compile the wheel. What has been compiled before is not compiled again."""
-    options = ["--machine", "aarch64", "--out", str(WORK / "wheel")]
+def build_wheel(folder: Path) -> bool:
+    """Cross-compile the wheel into a folder. What has been compiled before is not compiled again."""
+    options = ["--machine", "aarch64", "--out", str(folder)]
     command = [sys.executable, str(ROOT / "scripts/wheels.py"), *options, sys.executable]
     done = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, text=True, check=False)
     if done.returncode != 0:
@@ -162,9 +163,9 @@ def build_wheel() -> bool:
     return True
 
 
-def install(namespace: Namespace, packages: Path) -> bool:
+def install(namespace: Namespace, packages: Path, folder: Path) -> bool:
     """Install the wheel and all packages in the root with pip, unless exactly these are installed."""
-    (wheel,) = (WORK / "wheel").glob("*_aarch64.whl")
+    (wheel,) = folder.glob("*_aarch64.whl")
     contents = hashlib.sha256(wheel.read_bytes()).hexdigest() + (packages / "complete.txt").read_text(encoding="utf-8")
     stamp = WORK / "installed.txt"
     if stamp.is_file() and stamp.read_text(encoding="utf-8") == contents:
