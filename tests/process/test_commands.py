@@ -113,8 +113,8 @@ def test_help_has_an_example(processes, command):
 
 
 def test_demo_shows_the_complete_tree_and_stops_its_nodes(processes):
-    processes.start("demo", "python", "-m", "coframe.cli", "demo", "--duration", "20", "--no-browser")
     processes.start("other", "python", "-m", "coframe.lab.simulated_lidar")
+    processes.start("demo", "python", "-m", "coframe.cli", "demo", "--duration", "20", "--no-browser")
     received = processes.observe(1.0, "/scan_base_frame:sensor_msgs/msg/PointCloud2:volatile")
     assert len(received["/scan_base_frame"]) > 1
     eventually(lambda: not processes.running("demo"), lambda: processes.text("demo"), patience=60.0)
@@ -124,6 +124,7 @@ def test_demo_shows_the_complete_tree_and_stops_its_nodes(processes):
         assert re.search(rf"^ *{frame}\b", text, re.MULTILINE), text
     assert "not connected" not in text
     unwrapped = " ".join(text.split())
+    assert processes.running("other"), processes.text("other")
     assert "already running in this domain: simulated_lidar. Stop it, or choose another domain" in unwrapped
     assert re.search(r"/scan_base_frame: \d+\.\d Hz, \d+ points in base_link", text)
 
