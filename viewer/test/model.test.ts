@@ -95,11 +95,13 @@ describe("display options", () => {
   });
 
   it("set the fields of a subscription, with defaults for invalid values", () => {
+    const quality = { reliability: "automatic", durability: "automatic", depth: 10 };
     const scan = new Options<"LaserScan">({ "Color Transformer": "FlatColor", Axis: 1 }, DISPLAYS.LaserScan.options);
-    expect(scan.subscription()).toEqual({ color_by: "flat", channel: "intensity", axis: "z", decay: 0 });
+    expect(scan.subscription()).toEqual({ color_by: "flat", channel: "intensity", axis: "z", decay: 0, ...quality });
     const odometry = new Options<"Odometry">({ Keep: 12.4 }, DISPLAYS.Odometry.options);
-    expect(odometry.subscription()).toEqual({ keep: 12 });
-    expect(new Options<"Path">({}, DISPLAYS.Path.options).subscription()).toEqual({});
+    expect(odometry.subscription()).toEqual({ keep: 12, ...quality });
+    expect(new Options<"Path">({}, DISPLAYS.Path.options).subscription()).toEqual({ history: 1, ...quality });
+    expect(new Options<"TF">({}, DISPLAYS.TF.options).subscription()).toEqual({});
   });
 
   it("have no effect without the flag that they need", () => {
