@@ -309,6 +309,8 @@ def test_autograders_contain_all_that_they_need(wheel, tmp_path):
     assert steps[-1]["env"]["LAB_RESULTS"] == "${{ steps.lab.outputs.result }}"
     dockerfile, _ = write_autograder("docker", tmp_path / "d", wheel)
     assert "FROM python:3.11-slim" in dockerfile.read_text()
+    for option in ("seccomp", "apparmor", "systempaths"):  # each of them forbids mounts or /proc in a namespace
+        assert f"--security-opt {option}=unconfined" in dockerfile.read_text()
     with pytest.raises(CourseError, match="already exists"):
         write_autograder("docker", tmp_path / "d", wheel)
     with pytest.raises(CourseError, match="is not a wheel of coframe"):

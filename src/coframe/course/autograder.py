@@ -80,10 +80,13 @@ jobs:
         with:
           runners: lab
 """
-_DOCKERFILE = """# Grades a class: docker build -t lab . && docker run --rm --network none \\
-#   --security-opt seccomp=unconfined -v "$PWD/submissions:/class:ro" -v "$PWD/grades:/grades" lab
-# Programs of students need namespaces of their own, which Docker's default profile forbids (seccomp=unconfined allows
-# them). Without them, the report says what is not protected.
+_DOCKERFILE = """# Grades a class. Create the folder for the grades first: Docker would create it for root.
+#   docker build -t lab . && mkdir -p grades
+#   docker run --rm --network none --user "$(id -u):$(id -g)" --env HOME=/tmp \\
+#     --security-opt seccomp=unconfined --security-opt apparmor=unconfined --security-opt systempaths=unconfined \\
+#     -v "$PWD/submissions:/class:ro" -v "$PWD/grades:/grades" lab
+# Programs of students need namespaces with mounts and a /proc of their own. Docker's default profiles for seccomp and
+# AppArmor and its masked paths forbid them. Without them, the report says what is not protected.
 FROM python:{python}-slim
 COPY {wheel} /tmp/
 RUN python -m pip install --no-cache-dir "/tmp/{wheel}[{extras}]" && rm /tmp/{wheel} \\
