@@ -19,6 +19,10 @@ import performance
 import ros_packages
 from mkdocs.structure.files import File
 
+from coframe.course.handbook import write_pages
+from coframe.course.translation.catalogue import languages
+from coframe.course.translation.language import ENGLISH, Language
+
 if TYPE_CHECKING:
     from mkdocs.config.defaults import MkDocsConfig
     from mkdocs.structure.files import Files
@@ -58,6 +62,9 @@ BOOSTS = {
     "decisions/": 0.3,
     "changelog.md": 0.3,
 }
+_HANDBOOK = "handbook"
+_LANGUAGE_NAMES = {"de": "Handbuch auf Deutsch"}  # in the language itself; else the code
+_TRANSLATIONS = {code: _LANGUAGE_NAMES.get(code, code) for code in languages() if code != ENGLISH.code}
 _LINK = re.compile(r"(?P<open>!?\[(?P<text>(?:[^\[\]]|\[[^\]]*\])*)\])\((?P<url>[^)\s]+)\)")
 _CODE = re.compile(r"^(?P<fence>```+|~~~+).*?^(?P=fence)|`[^`\n]+`", re.MULTILINE | re.DOTALL)
 
@@ -121,12 +128,21 @@ def _boost(path: str) -> float:
 
 
 def on_page_content(html: str, *, page: Page, **_: Any) -> str:
-    """List only the codes in the table of contents of their page, not the headings that all of them have."""
+    """Link to the translations of the handbook, and list only codes in the table of contents of the page of codes."""
+    if page.file.src_uri == f"{_HANDBOOK}/README.md":
+        links = (f'<a href="{code}/index.html" hreflang="{code}">{name}</a>' for code, name in _TRANSLATIONS.items())
+        return f"<p>{', '.join(links)}</p>{html}"
     if page.file.src_uri == doctor_codes.PAGE:
         for title in page.toc:
             for code in title.children:
                 code.children.clear()
     return html
+
+
+def on_post_build(config: MkDocsConfig) -> None:
+    """Write the handbook in the other languages of the course."""
+    for code in _TRANSLATIONS:
+        write_pages(Path(config.site_dir, _HANDBOOK, code), language=Language(code))
 
 
 def adapt_links(markdown: str, source: str, page: str, repository: str, pages: set[str]) -> str:

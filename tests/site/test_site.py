@@ -128,6 +128,12 @@ def test_links_and_anchors_exist(site):
     assert result.returncode == 0, result.stdout
 
 
+def test_the_handbook_leads_to_its_translations(site):
+    page = (site / "handbook" / "index.html").read_text("utf-8")
+    assert re.search(r'<a href="de/index.html"[^>]*>Handbuch auf Deutsch</a>', page)
+    assert "Statische und dynamische" in (site / "handbook" / "de" / "index.html").read_text("utf-8")
+
+
 def test_link_checker_finds_what_is_broken(tmp_path):
     (tmp_path / "index.html").write_text(
         '<a href="gone.html"></a><a href="#gone"></a><a href="http://nowhere"></a><a id="here" href="#here"></a>'
