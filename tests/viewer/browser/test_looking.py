@@ -128,6 +128,7 @@ def test_in_the_top_view_y_is_up_and_z_has_no_effect(page):
     assert scale > 10, "pixels per meter"
     np.testing.assert_allclose([right, up, high] - origin, [[scale, 0], [0, -scale], [0, 0]], atol=1e-2)
     page.row("base").locator(".name").click()
+    page.until("document.querySelector('#panel .row[aria-selected=true]')?.dataset.frame === 'base'")
     click_on(page, "arm")
     page.until("document.querySelector('#panel .row[aria-selected=true]')?.dataset.frame === 'arm'")
     page.key("v")
