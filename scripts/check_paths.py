@@ -9,9 +9,10 @@ Example:
 from __future__ import annotations
 
 import re
-import subprocess
 import sys
 from pathlib import Path
+
+from tracked_files import chosen
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLDERS = "benchmarks|conformance|distributions|docs|examples|interfaces|middlewares|native|scripts|src|tests|viewer"
@@ -28,18 +29,11 @@ NOT_TRACKED = re.compile(
 
 def main() -> int:
     """Check the files, and return the exit code."""
-    paths = sys.argv[1:] or tracked()
-    found = [line for path in paths if is_checked(path) for line in problems(path)]
+    found = [line for path in chosen(sys.argv[1:]) if is_checked(path) for line in problems(path)]
     print(*found, sep="\n", end="\n" if found else "")
     if found:
         print(f"{len(found)} references to files that do not exist", file=sys.stderr)
     return 1 if found else 0
-
-
-def tracked() -> list[str]:
-    """Return the files of the repository, without deleted ones. -z keeps git from quoting names."""
-    names = subprocess.check_output(["git", "ls-files", "-z"], cwd=ROOT).decode(errors="surrogateescape")
-    return [name for name in names.split("\0") if (ROOT / name).is_file()]
 
 
 def is_checked(path: str) -> bool:

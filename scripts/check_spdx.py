@@ -9,9 +9,10 @@ Example:
 from __future__ import annotations
 
 import fnmatch
-import subprocess
 import sys
 from pathlib import Path
+
+from tracked_files import tracked
 
 ROOT = Path(__file__).resolve().parents[1]
 LINE = "SPDX-License-Identifier: Apache-2.0"
@@ -35,8 +36,7 @@ SKIPPED = (
 
 
 def main() -> int:
-    paths = subprocess.check_output(["git", "ls-files"], cwd=ROOT, text=True).splitlines()
-    missing = [path for path in paths if is_checked(path) and not has_line(ROOT / path)]
+    missing = [path for path in tracked() if is_checked(path) and not has_line(ROOT / path)]
     if "--fix" in sys.argv:
         for path in missing:
             add_line(ROOT / path)
@@ -51,7 +51,7 @@ def is_checked(path: str) -> bool:
 
 
 def has_line(file: Path) -> bool:
-    text = file.read_text(encoding="utf-8")
+    text = file.read_text("utf-8", errors="replace")
     return not text or LINE in "\n".join(text.splitlines()[:3])
 
 

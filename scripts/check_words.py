@@ -10,10 +10,11 @@ from __future__ import annotations
 
 import fnmatch
 import re
-import subprocess
 import sys
 from pathlib import Path
 from typing import NamedTuple
+
+from tracked_files import chosen
 
 ROOT = Path(__file__).resolve().parents[1]
 WORD_LIST = ROOT / "scripts" / "banned_words.toml"
@@ -32,8 +33,7 @@ class Word(NamedTuple):
 
 def main() -> int:
     words = read_words()
-    paths = sys.argv[1:] or subprocess.check_output(["git", "ls-files"], cwd=ROOT, text=True).splitlines()
-    found = [line for path in paths if is_checked(path) for line in problems(path, words)]
+    found = [line for path in chosen(sys.argv[1:]) if is_checked(path) for line in problems(path, words)]
     print(*found, sep="\n", end="\n" if found else "")
     if found:
         print(f"{len(found)} banned words; docs/glossary.md has the terms that coframe uses", file=sys.stderr)
@@ -71,7 +71,7 @@ def problems(path: str, words: list[Word]) -> list[str]:
     """Return one line per banned word of a file."""
     found = []
     active = [word for word in words if not any(fnmatch.fnmatch(path, pattern) for pattern in word.allow)]
-    for number, line in enumerate((ROOT / path).read_text(encoding="utf-8").splitlines(), 1):
+    for number, line in enumerate((ROOT / path).read_text("utf-8", errors="replace").splitlines(), 1):
         for word in active:
             match = word.pattern.search(line)
             if match and not (word.unless and word.unless.search(line)):

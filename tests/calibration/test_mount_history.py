@@ -116,6 +116,15 @@ def test_what_cannot_be_compared_is_an_error(tmp_path):
     assert "no recording shows a mount" in text
 
 
+def test_a_recording_that_cannot_be_read_is_not_said_to_show_no_mount(tmp_path):
+    bag, absent = record(tmp_path / "run.mcap", 0), tmp_path / "absent.mcap"
+    text = run("doctor", bag, "--baseline", absent, code=1)
+    assert text.startswith(f"coframe: {absent} cannot be read")
+    assert "mount" not in text.replace(str(absent), "")
+    assert "no recording shows" not in run("calib", "history", absent, code=1)
+    assert "no sensor has moved" in run("calib", "history", bag, absent)
+
+
 def measured(path, shown):
     """Return the mounts between two cameras; the second one shows the tag at the given poses, the first one at none."""
     pose = find(POSE)

@@ -167,9 +167,12 @@ def test_commands_report_gaps_and_have_an_option_for_them(bag):
     assert (code, len(text.splitlines()), errors) == (0, 41, "")
     code, text, errors = run("trajectory", bag, "map", "base", "--rate", 10, "--max-gap", "200ms")
     assert (code, len(text.splitlines())) == (0, 22)
-    assert "no transform, or none without a gap of more than 200 ms, at 19 of 41 times" in errors
+    assert errors == f"coframe: {skipped} than 200 ms; they are omitted (--max-gap changes this limit)\n"
     assert run("trajectory", bag, "map", "base", "--max-gap", "200ms", "--on-gap", "raise")[0] == 1
     assert run("trajectory", bag, "map", "base", "--max-gap", "200ms", "--on-gap", "skip")[0] == 2
+
+    code, _, errors = run("table", bag, "map:base")
+    assert (code, "Give a topic, such as --at /camera/image, or --rate 10." in errors) == (1, True)
 
     code, text, errors = run("lookup", bag, "map", "base", "--at", "2s")
     assert (code, "without a sample of 'base'; use --max-gap 200ms to get an error instead" in errors) == (0, True)

@@ -88,6 +88,15 @@ def test_a_network_without_multicast(network):
     assert "Joining domain 0 failed" in texts(json.loads(result.stdout), "error")[0]
 
 
+def test_report_in_a_notebook(monkeypatch):
+    monkeypatch.setenv("COFRAME_DDS_LIBRARY", "/absent/<b>")
+    report = collect(listen=0.0)
+    text = report._repr_html_()
+    assert "The DDS library /absent/&lt;b&gt; in COFRAME_DDS_LIBRARY does not exist." in text
+    assert "Environment variables" in text
+    assert "no ROS 2 is sourced" in text
+
+
 def test_without_a_library():
     result = run([*COMMAND, "--json"], COFRAME_DDS_LIBRARY="/absent/libddsc.so")
     data = json.loads(result.stdout)

@@ -11,7 +11,7 @@ import numpy as np
 from coframe import time
 from coframe.bags.namespaces import ALL_TRANSFORMS, TransformChoice
 from coframe.bags.time_points import parse_time_point
-from coframe.buffer.gaps import gap_limit, long_gap_text, skipped_gap_text
+from coframe.buffer.gaps import SkippedPoses, gap_limit, long_gap_text, skipped_poses
 from coframe.errors import RecordingError
 
 if TYPE_CHECKING:
@@ -118,10 +118,16 @@ class TrajectoryQuery:
 
     def gap_text(self, recording: Recording, stamps: NDArray[np.int64]) -> str:
         """Return a message about poses in unusually long gaps, or in those longer than `max_gap`; "" for none."""
-        if (limit := gap_limit(self.max_gap, self.on_gap)) is not None:
-            buffer = recording.buffer
-            return "" if self.on_gap == "raise" else skipped_gap_text(buffer, self.target, self.source, stamps, limit)
-        return long_gap_text(recording.buffer, self.target, self.source, stamps)
+        if self.max_gap is None:
+            return long_gap_text(recording.buffer, self.target, self.source, stamps)
+        return self.skipped_poses(recording, stamps).text
+
+    def skipped_poses(self, recording: Recording, stamps: NDArray[np.int64]) -> SkippedPoses:
+        """Return the poses that are omitted or NaN because they lie in gaps longer than `max_gap`."""
+        limit = gap_limit(self.max_gap, self.on_gap)
+        if limit is None or self.on_gap == "raise":
+            return SkippedPoses(0, "")
+        return skipped_poses(recording.buffer, self.target, self.source, stamps, limit)
 
     def validity_of(self, recording: Recording, poses: Transform) -> dict[str, NDArray[np.int64]]:
         """Return how far poses are from the samples that they were computed from. See :meth:`coframe.Buffer.validity`.

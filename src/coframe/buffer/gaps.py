@@ -27,6 +27,7 @@ __all__ = [
     "MAX_GAP",
     "MAX_GAP_PERIODS",
     "OnGap",
+    "SkippedPoses",
     "Validity",
     "check_gap",
     "gap_error",
@@ -35,7 +36,7 @@ __all__ = [
     "in_long_gap",
     "long_gap_text",
     "note_gaps",
-    "skipped_gap_text",
+    "skipped_poses",
     "validity",
 ]
 
@@ -149,17 +150,32 @@ def long_gap_text(buffer: _core.Buffer, target: str, source: str, stamps: NDArra
     )
 
 
-def skipped_gap_text(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64], limit: int) -> str:
-    """Return a message about times that lie in gaps longer than a limit, or "" if there are none."""
+class SkippedPoses(NamedTuple):
+    """The poses in gaps that are longer than a limit.
+
+    Attributes:
+        number: How many there are.
+        text: A message about them, or "" if there are none.
+    """
+
+    number: int
+    text: str
+
+
+def skipped_poses(
+    buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64], limit: int
+) -> SkippedPoses:
+    """Return the poses, of those at some times, that lie in gaps longer than a limit."""
     found = validity(buffer, target, source, stamps)
-    inside = found.gaps > limit
-    if not inside.any():
-        return ""
+    number = int(np.count_nonzero(found.gaps > limit))
+    if not number:
+        return SkippedPoses(0, "")
     longest = int(np.argmax(found.gaps))
-    return (
-        f"{np.count_nonzero(inside)} of {count(len(stamps), 'pose')} of {source!r} in {target!r} lie between samples "
+    return SkippedPoses(
+        number,
+        f"{number} of {count(len(stamps), 'pose')} of {source!r} in {target!r} lie between samples "
         f"of {found.edges[longest]!r} that are up to {duration(int(found.gaps[longest]))} apart, which is more than "
-        f"{duration(limit)}"
+        f"{duration(limit)}",
     )
 
 

@@ -166,7 +166,7 @@ def history(
     if output is not None and output.suffix.lower() not in HISTORY_SUFFIXES:
         fail(f"--output {output}: unknown suffix {output.suffix!r}. Suffixes: {', '.join(HISTORY_SUFFIXES)}", code=2)
     with run_to_completion():
-        mounts = measured_in(bags, pairs, rigid)
+        mounts = measured_in(bags, pairs, rigid, skips_unreadable=True)
         if output is not None:
             write_history(mounts, output)
         if print_history(mounts, as_json=as_json):

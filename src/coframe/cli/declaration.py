@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeVar
 import click
 
 from coframe._base_error import CoframeError
+from coframe._output.formatting import error_text
 from coframe._sources.urls import is_url
 from coframe.cli import help_format
 from coframe.cli.commands import joins_graph
@@ -40,7 +41,7 @@ class _RecordingType(click.Path):
         try:
             return as_source(value)
         except CoframeError as error:
-            return self.fail(f"{error}. {error.hint}", param, ctx)
+            return self.fail(error_text(error), param, ctx)
 
 
 RECORDING: Final = _RecordingType(path_type=Path)

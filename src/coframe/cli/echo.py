@@ -21,7 +21,7 @@ from coframe.cli.options import (
     domain_option,
     listener_options,
 )
-from coframe.cli.output import awaited_statics_text, fail, log, one_line, print_bounded, with_doctor_command
+from coframe.cli.output import awaited_statics_text, fail, for_command_line, log, one_line, print_bounded
 from coframe.cli.ros_arguments import NodeCommand, node_identity
 from coframe.connection.connection import connect
 from coframe.errors import TransformException
@@ -181,7 +181,7 @@ def _wait_for_transform(ros: Connection, source: str, target: str, period: int) 
                 hint = awaited_statics_text(awaited) if awaited else error.hint
                 if hint != logged_hint:  # The reason is repeated every second, the hint only when it changes.
                     logged_hint = hint
-                    log("INFO", NODE_NAME, one_line(with_doctor_command(hint)))
+                    log("INFO", NODE_NAME, one_line(for_command_line(hint)))
         else:
             return
 

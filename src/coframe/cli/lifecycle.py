@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import contextlib
 import gc
-import re
 import signal
 import sys
 import warnings
@@ -15,7 +14,7 @@ from click.exceptions import Exit
 
 from coframe._base_error import CoframeError, CoframeWarning
 from coframe._process.signal_handlers import SIGINT_EXIT_CODE, SignalHandlers
-from coframe.cli.output import fail, warn
+from coframe.cli.output import fail, for_command_line, warn
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -25,7 +24,6 @@ __all__ = ["run_to_completion", "run_until_interrupted"]
 
 # Windows has no SIGHUP.
 _END_SIGNALS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
-_ARGUMENT = re.compile(r"\b([a-z0-9_]+)=(True|\"[^\"]*\")")
 
 
 @contextlib.contextmanager
@@ -75,18 +73,12 @@ def _printed_warnings() -> Iterator[None]:
             show(message, category, *place, **line)
         elif str(message) not in printed_texts:
             printed_texts.add(str(message))
-            warn(_ARGUMENT.sub(_option_text, str(message)))
+            warn(for_command_line(str(message)))
 
     with warnings.catch_warnings():
         warnings.simplefilter("always", CoframeWarning)
         warnings.showwarning = print_once
         yield
-
-
-def _option_text(argument: re.Match[str]) -> str:
-    """Return the command-line option for an argument of the library."""
-    name, value = argument.groups()
-    return f"--{name.replace('_', '-')}" + ("" if value == "True" else f" {value.strip(chr(34))}")
 
 
 def _interrupt(_signal: int, _frame: FrameType | None) -> None:

@@ -12,8 +12,10 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 import click
+from click.exceptions import Exit
 
 from coframe._files.complete_files import complete_or_absent, write_complete
+from coframe._output.formatting import error_text
 from coframe._process.optional_imports import import_optional
 from coframe.bags.namespaces import TransformChoice
 from coframe.calibration import MAX_CHI_SQUARED, MeasuredMount, Movement, change_between, find_movements, measure_mounts
@@ -57,18 +59,30 @@ def pair_options(function: Callable[..., None]) -> Callable[..., None]:
 
 
 def measured_in(
-    bags: Iterable[str], pairs: tuple[tuple[str, str], ...], rigid: tuple[tuple[str, str], ...]
+    bags: Iterable[str],
+    pairs: tuple[tuple[str, str], ...],
+    rigid: tuple[tuple[str, str], ...],
+    *,
+    skips_unreadable: bool = False,
 ) -> list[MeasuredMount]:
-    """Return the mounts of all recordings; warn about recordings that do not show any."""
+    """Return the mounts of all recordings, at least one; warn about recordings that do not show any.
+
+    With `skips_unreadable`, a recording that cannot be read is a warning, and otherwise an error.
+    """
     found: list[MeasuredMount] = []
+    skipped = False
     for bag in bags:
+        was_opened = False
         try:
             with open_recording(bag, TransformChoice()) as recording:
+                was_opened = True
                 mounts = measure_mounts(recording, pairs, rigid)
         except CoframeError as error:
-            text = str(error).partition("\n")[0]
-            where = "" if text.startswith(bag) else f"{bag}: "
-            warn(f"{where}{text}. {getattr(error, 'hint', '')}".rstrip())
+            if not (was_opened or skips_unreadable):
+                raise
+            skipped |= not was_opened
+            text = error_text(error).partition("\n")[0]
+            warn(text if text.startswith(bag) else f"{bag}: {text}")
             continue
         if not mounts:
             warn(f"{bag}: no two sensors see one thing at the same time; name their topics with --pair")
@@ -80,6 +94,8 @@ def measured_in(
                 )
         found += mounts
     if not found:
+        if skipped:  # The warnings name what is wrong with each recording.
+            raise Exit(1)
         fail("no recording shows a mount", "Name two topics with poses of one object: --pair /left/tag /right/tag.")
     return found
 

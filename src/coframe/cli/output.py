@@ -26,16 +26,18 @@ __all__ = [
     "awaited_statics_text",
     "fail",
     "fail_to_write",
+    "for_command_line",
     "log",
     "one_line",
     "print_bounded",
     "printable",
     "report_console",
     "warn",
-    "with_doctor_command",
 ]
 
 _REDIRECTED_WIDTH = 1000  # columns
+# An argument in a text of the library, but not within a call such as Buffer(cache="30s").
+_ARGUMENT = re.compile(r"(?<![\w(-])([a-z][a-z0-9_]*)=(\"[^\"]*\"|True|\d+(?:\.\d+)?)?")
 
 
 def fail(text: str, hint: str = "", *, code: int = 1, details: str = "") -> NoReturn:
@@ -44,7 +46,7 @@ def fail(text: str, hint: str = "", *, code: int = 1, details: str = "") -> NoRe
     if details:
         click.echo(printable(details), err=True)
     if hint:
-        click.echo(f"  {one_line(with_doctor_command(hint))}", err=True)
+        click.echo(f"  {one_line(for_command_line(hint))}", err=True)
     raise Exit(code)
 
 
@@ -54,9 +56,21 @@ def fail_to_write(path: Path | None, error: OSError, *, code: int = 1) -> NoRetu
     fail(f"{name} cannot be written: {reason(error)}", writing_advice(error), code=code)
 
 
-def with_doctor_command(hint: str) -> str:
-    """Replace the doctor code in a library hint with the command that prints its page."""
-    return re.sub(r"See doctor code (TF\d+)\.", r"More: coframe doctor --explain \1", hint)
+def for_command_line(text: str) -> str:
+    """Return a text of the library in the spelling of the running command.
+
+    Arguments become its options, and a doctor code becomes the command that prints its page.
+    """
+    context = click.get_current_context(silent=True)
+    options = {parameter.name for parameter in context.command.params} if context else set()
+
+    def option(argument: re.Match[str]) -> str:
+        name, value = argument.groups()
+        if name not in options:
+            return argument[0]
+        return f"--{name.replace('_', '-')}" + (f" {value.strip(chr(34))}" if value and value != "True" else "")
+
+    return re.sub(r"See doctor code (TF\d+)\.", r"More: coframe doctor --explain \1", _ARGUMENT.sub(option, text))
 
 
 def awaited_statics_text(nodes: list[str]) -> str:

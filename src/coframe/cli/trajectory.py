@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, cast
 
 import click
 
-from coframe._output.formatting import count, duration, seconds
+from coframe._output.formatting import count, seconds
 from coframe.bags import TrajectoryQuery
 from coframe.bags.namespaces import ALL_TRANSFORMS, TransformChoice
 from coframe.cli.completion import complete_frames
@@ -110,8 +110,9 @@ def trajectory(
     with run_to_completion(), open_recording(bag, choice) as recording:
         _check_times(recording, start, stop)
         stamps = query.stamps(recording)
-        if text := query.gap_text(recording, stamps):
-            warn(f"{text}; {GAP_EFFECTS[on_gap]} (--max-gap changes this limit)")
+        skipped = query.skipped_poses(recording, stamps)
+        if skipped.text:
+            warn(f"{skipped.text}; {GAP_EFFECTS[on_gap]} (--max-gap changes this limit)")
         missing, first, last = 0, int(stamps[-1]), int(stamps[0])
 
         def batches() -> Iterator[Transform]:
@@ -131,7 +132,8 @@ def trajectory(
             if isinstance(error, BrokenPipeError):
                 raise
             fail_to_write(output, error)
-        _print_missing(missing, len(stamps), max_gap if text else None)
+        # The poses in gaps have been reported above.
+        _report_missing(missing - (skipped.number if on_gap == "omit" else 0), len(stamps))
         if output is not None:
             poses = count(len(stamps) - missing, "pose")
             print(
@@ -162,10 +164,9 @@ def _write_topic(poses: Transform, output: Path | None, kind: str) -> None:
         print(f"{output}: {count(len(poses), 'pose')} from {seconds(first)} to {seconds(last)}")
 
 
-def _print_missing(missing: int, times: int, max_gap: PositiveDuration | None) -> None:
+def _report_missing(missing: int, times: int) -> None:
     if missing:
-        gaps = "" if max_gap is None else f", or none without a gap of more than {duration(max_gap)},"
-        warn(f"no transform{gaps} at {missing} of {count(times, 'time')}; those are omitted")
+        warn(f"no transform at {missing} of {count(times, 'time')}; those are omitted")
 
 
 def _check_times(recording: Recording, *times: str | None) -> None:

@@ -35,7 +35,7 @@ from coframe.cli.options import (
     namespace_option,
     recorded_listener_options,
 )
-from coframe.cli.output import awaited_statics_text, fail, one_line, with_doctor_command
+from coframe.cli.output import awaited_statics_text, fail, for_command_line, one_line
 from coframe.cli.recordings import check_has_transforms, open_recording, parse_lookup_time
 from coframe.connection.connection import Connection
 from coframe.connection.listener_config import ListenerConfig
@@ -285,7 +285,7 @@ def _print(answer: _Answer, *, as_json: bool) -> None:
 
 
 def _styled_lines(answer: _Answer, console: Console) -> list[Text]:
-    first, *rest = with_doctor_command(_replace_advice(answer.found, str(answer.found))).split("\n")
+    first, *rest = for_command_line(_replace_advice(answer.found, str(answer.found))).split("\n")
     lines = [("green" if answer.found.possible else "bold red", first), *(("", line) for line in rest)]
     for report in answer.reports:
         for finding in report.findings:
@@ -313,7 +313,7 @@ def _data(answer: _Answer) -> dict[str, Any]:
         "code": found.code or None,
         "verdict": verdict_text(found),
         "text": found.text or None,
-        "hint": with_doctor_command(_replace_advice(found, found.hint)) or None,
+        "hint": for_command_line(_replace_advice(found, found.hint)) or None,
         "frames": list(found.frames),
         "edges": [_edge_data(found, edge) for edge in found.edges],
         "unknown": list(found.unknown),

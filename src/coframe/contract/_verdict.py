@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from coframe._output import html_tables
 from coframe._output.escaping import one_line
+from coframe._output.formatting import error_text
 from coframe._sources.urls import is_url, remove_credentials
 from coframe.bags.namespaces import ALL_TRANSFORMS
 from coframe.contract._checks import check_contract
@@ -45,7 +46,7 @@ class Verdict(NamedTuple):
     @classmethod
     def of_error(cls, source: str, error: CoframeError) -> Self:
         """Return the verdict for a recording that cannot be read, with the hint of the error."""
-        return cls(source, (), f"{error}. {error.hint}" if error.hint else str(error))
+        return cls(source, (), error_text(error))
 
     @property
     def broken(self) -> tuple[Result, ...]:

@@ -9,11 +9,15 @@ import time
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final
 
+from coframe._output import html_tables
+from coframe._output.formatting import count
 from coframe.system._installation import Installation, installation
 from coframe.system._middleware_check import StepRunner
 from coframe.system._variables import Variable, variables
+from coframe.system.advice import advise
 from coframe.system.middleware_checks import check_of
 from coframe.system.network import Probe, SocketLimits, limits
+from coframe.system.sections import sections
 from coframe.wire import domains, selection
 from coframe.wire.dds import config, library
 from coframe.wire.participant import Participant
@@ -74,6 +78,15 @@ class SystemReport:
     zenoh: ZenohProbe | None = None
     middleware: list[str] = field(default_factory=list)
     problems: list[FailedStep] = field(default_factory=list)
+
+    def _repr_html_(self) -> str:
+        findings = [(one.severity, one.text, one.action) for one in advise(self)]
+        lines = [(title, line) for title, part in sections(self) for line in part]
+        return html_tables.section(
+            count(len(findings), "finding"),
+            html_tables.table(("severity", "what was found", "what to do"), findings, len(findings)),
+            html_tables.table(("part", "state"), lines, len(lines)),
+        )
 
 
 def collect(

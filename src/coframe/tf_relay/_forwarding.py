@@ -9,6 +9,7 @@ import time
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe import _core
+from coframe._output.formatting import error_text
 from coframe._output.warn_once import WarnOnce
 from coframe.connection.tf_publishers import TfPublisher, publisher_state, tf_publisher
 from coframe.errors import WireError
@@ -281,7 +282,7 @@ class Relay:
             output.publisher.write(message)
         except WireError as error:
             if not self._closed:
-                self._warn_once(f"{error} {error.hint}", output.topic)
+                self._warn_once(error_text(error), output.topic)
 
     def _is_relay(self, topic: str, writer: int) -> bool:
         """Return whether a writer is part of a relay, because its transforms must not be relayed again."""

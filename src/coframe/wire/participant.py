@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, ClassVar, Final
 
 from coframe import _core
 from coframe._output.escaping import printable
+from coframe._output.formatting import error_text
 from coframe._output.warn_once import WarnOnce
 from coframe.errors import WireError
 from coframe.frame_names import naming_problems
@@ -228,7 +229,7 @@ class Participant(EndpointFactory, GraphQueries):
                 self._rejections.check(readers)
                 self._warn_of_naming_problems(readers)
                 if (fault := clock_fault()) is not None:  # The clock was changed while the process was running.
-                    self._warn_once(f"{fault} {fault.hint}", "clock")
+                    self._warn_once(error_text(fault), "clock")
             except Exception:
                 # A warning callback raised, or an endpoint was closed in the meantime.
                 if not self._closing:

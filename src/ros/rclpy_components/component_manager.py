@@ -7,6 +7,7 @@ import importlib
 import sys
 from typing import TYPE_CHECKING, Any
 
+from coframe._output.formatting import error_text
 from coframe.errors import PackageError
 from coframe.workspace.packages.components import find_component
 from coframe.workspace.packages.executables import module_folders
@@ -63,7 +64,7 @@ class ComponentManager(Node):
             node = self.__create(request)
         except PackageError as error:
             self.get_logger().error(str(error))
-            response.error_message = f"{error} {error.hint}".rstrip()
+            response.error_message = error_text(error)
             return response
         # A node is the user's code: its exception is the response, as in C++ containers.
         except Exception as error:  # noqa: BLE001 - the response contains it

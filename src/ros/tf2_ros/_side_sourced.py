@@ -9,6 +9,7 @@ import threading
 import weakref
 from typing import TYPE_CHECKING, Any
 
+from coframe._output.formatting import error_text
 from coframe.errors import WireError
 from coframe.wire import selection
 from coframe.wire.qos import INFINITE, QoS
@@ -139,7 +140,7 @@ def _native_problem() -> str | None:
             return f"{selection.VARIABLE} selects a different middleware from {middleware}."
         selection.check(needed)
     except WireError as error:
-        return f"{error} {error.hint}".strip()
+        return error_text(error)
     return None
 
 

@@ -11,6 +11,7 @@ from functools import partial
 from typing import Any, NamedTuple
 
 from builtin_interfaces.msg import Time as TimeMessage
+from coframe._output.formatting import error_text
 from coframe.time import SECOND
 from rclpy.callback_groups import CallbackGroup
 from rclpy.duration import Duration
@@ -237,7 +238,7 @@ class MessageFilter:
                 self._resolve(earlier)
             self._pass(pending)
         elif missing.reason is not None:
-            self._drop(pending, missing.reason, _explain(missing.error))
+            self._drop(pending, missing.reason, error_text(missing.error))
         else:
             self._wait_for(missing, pending)
 
@@ -251,7 +252,7 @@ class MessageFilter:
         if missing is None:
             self._pass(pending)
         elif (reason := missing.reason or otherwise) is not None:
-            self._drop(pending, reason, _explain(missing.error))
+            self._drop(pending, reason, error_text(missing.error))
 
     def _limit_queue(self) -> None:
         while self._queue_size and (oldest := self._queue.oldest_if_longer_than(self._queue_size)) is not None:
@@ -384,10 +385,6 @@ def _permanent_failure(error: TransformException) -> FilterFailureReason | None:
     if isinstance(error, ExtrapolationException) and error.requested is not None and error.earliest is not None:
         return FilterFailureReason.OutTheBack if error.requested < error.earliest else None
     return None
-
-
-def _explain(error: TransformException) -> str:
-    return f"{error} {error.hint}".strip()
 
 
 _NO_HEADER = (

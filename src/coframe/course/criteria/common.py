@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from coframe._files.os_errors import explain
+from coframe._output.formatting import error_text
 from coframe.course._program import StudentProgram
 from coframe.course.criteria.causes import BLOCKED_CAUSE, log_cause
 from coframe.course.submitted import MISSING_FILE, check_submitted, is_submitted
@@ -166,7 +167,7 @@ def _file_problem(folder: Path, name: str) -> str:
     try:
         check_submitted(folder / name)
     except CourseError as error:
-        return f"{error} {error.hint}"
+        return error_text(error)
     return ""
 
 

@@ -7,6 +7,7 @@ import os
 import shlex
 from typing import TYPE_CHECKING, Any
 
+from coframe._output.formatting import error_text
 from coframe.errors import PackageError
 from coframe.workspace.packages.executables import Executable, find_executable
 from launch.frontend.arguments import check_arguments
@@ -73,7 +74,7 @@ def executable_in_package(package: str, name: str) -> Executable:
     try:
         return find_executable(package, name)
     except PackageError as error:
-        raise SubstitutionFailure(f"{error} {error.hint}") from None
+        raise SubstitutionFailure(error_text(error)) from None
 
 
 def _wrapper(executable: Executable) -> str:

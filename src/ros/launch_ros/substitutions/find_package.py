@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from coframe._output.formatting import error_text
 from coframe.errors import PackageError
 from coframe.workspace.packages.finding import Package, find_package
 from launch.frontend.arguments import check_arguments
@@ -78,4 +79,4 @@ def _found(name: str) -> Package:
     try:
         return find_package(name)
     except PackageError as error:
-        raise PackageNotFoundError(f"{error} {error.hint}") from None
+        raise PackageNotFoundError(error_text(error)) from None
