@@ -5,12 +5,16 @@ import numpy as np
 
 from coframe.analysis.clocks import clock_of, current_time_for, group_by_clock, is_same_clock
 from coframe.analysis.liveness import stale_limit, usual_gap, usual_period
-from coframe.time import DAY, HOUR, MINUTE, SECOND
+from coframe.time import DAY, HOUR, MILLISECOND, MINUTE, SECOND
 
 
-def test_stamps_within_an_hour_of_the_system_time_are_on_the_system_clock():
-    assert clock_of(HOUR - 1) == clock_of(1 - HOUR) == "wall"
+def test_stamps_close_to_the_system_time_are_on_the_system_clock():
+    assert clock_of(HOUR - MINUTE - 1) == clock_of(MINUTE - HOUR + 1) == "wall"
     assert clock_of(HOUR) == clock_of(-DAY) == "other"
+
+
+def test_messages_of_a_clock_that_is_an_hour_ahead_arrive_less_than_an_hour_before_their_stamps():
+    assert clock_of(-HOUR + 5 * MILLISECOND) == "other"
 
 
 def test_stamps_close_to_simulated_time_are_simulated():
@@ -20,7 +24,7 @@ def test_stamps_close_to_simulated_time_are_simulated():
 
 
 def test_spans_are_grouped_by_clock():
-    spans = [(DAY, DAY + SECOND), (0, SECOND), (HOUR, 2 * HOUR), (3 * HOUR, 4 * HOUR), (9 * HOUR, 9 * HOUR)]
+    spans = [(DAY, DAY + SECOND), (0, SECOND), (30 * MINUTE, HOUR), (90 * MINUTE, 2 * HOUR), (9 * HOUR, 9 * HOUR)]
     assert group_by_clock(spans) == [[1, 2, 3], [4], [0]]
     assert group_by_clock([]) == []
 

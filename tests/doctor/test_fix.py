@@ -33,6 +33,7 @@ SAFE = {
         "rename-frame: Laser=laser",
     ),
     "a clock that is an hour off": (Drive(tf_shift=-3600 * SECOND), "shift: odom->base_link=+1h"),
+    "a clock that is an hour ahead": (Drive(tf_shift=3600 * SECOND), "shift: odom->base_link=-1h"),
     "a clock that is two hours ahead": (Drive(tf_shift=2 * 3600 * SECOND), "shift: odom->base_link=-2h"),
     "everything twice": (Drive(repeats=True), "dedupe"),
     "an optical frame that is not turned": (

@@ -15,8 +15,11 @@ __all__ = ["SAME_CLOCK", "ClockName", "clock_of", "current_time_for", "group_by_
 
 ClockName = Literal["wall", "simulated", "other"]
 
-SAME_CLOCK = HOUR
-"""Times that differ by at least this much, in nanoseconds, are from different clocks: no delay is that long."""
+SAME_CLOCK = HOUR - MINUTE
+"""Times that differ by at least this much, in nanoseconds, are from different clocks: no delay is that long.
+
+Messages from a clock that is an hour ahead arrive less than an hour before their stamps.
+"""
 # Simulated time is compared with /clock at the receive time, so the difference is much smaller.
 _SAME_SIMULATED_CLOCK = MINUTE
 

@@ -93,7 +93,7 @@ def _find_other_units(edge: Edge, mounts: list[Edge]) -> Iterator[Finding]:
         return
     units = _likely_units(edge, mounts)
     x, y, z = (edge.values[-1, :3] / units[0][1]).tolist()
-    intended = " or ".join(f"{edge.length:.4g} {unit}" for unit, _ in units)
+    intended = f"{edge.length:.4g} " + " or ".join(unit for unit, _ in units)
     yield _make_finding(
         edge,
         f"the frames are {edge.length:.4g} m apart: was {intended} intended?",

@@ -35,7 +35,7 @@ def report_lines(report: Report) -> Iterator[tuple[str, str]]:
 def headline(finding: Finding) -> str:
     """Return the code, severity, subject, text, first stamp and publishers of a finding in one line."""
     subject = f"{finding.subject}: " if finding.subject else ""
-    stamp = "" if finding.first_stamp is None else f"; first stamp {seconds(finding.first_stamp)}"
+    stamp = "" if not finding.first_stamp else f"; first stamp {seconds(finding.first_stamp)}"
     publishers = f"; published by {join_names(finding.publishers)}" if finding.publishers else ""
     return f"{finding.code} {finding.severity}: {subject}{finding.text}{stamp}{publishers}"
 
