@@ -52,6 +52,8 @@ OTHER_PROGRAMS = {
     "uv",
     "xcode-select",
 }
+# Where other distributions add something; not modules.
+ENTRY_POINT_GROUPS = {f"coframe.{name}" for name in ("checks", "commands", "messages", "middlewares", "recordings")}
 
 
 class Block(NamedTuple):
@@ -186,8 +188,32 @@ def test_commands_and_links_exist(document):
     prose = BLOCK.sub("", text)
     for link in re.findall(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)", prose):
         assert (document.parent / link).exists(), f"{document.name} links to {link}"
-    for command in re.findall(r"`coframe ([a-z0-9]+)", text):
-        assert command in COMMAND_LINE.commands, f"{document.name} names coframe {command}"
+    for command in re.findall(r"`coframe ([^`]+)`", prose):
+        words = [word for word in shlex.split(command) if word != "..."]
+        assert problem_of_coframe(words) == "", f"{document.name} names coframe {command}"
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=name_of)
+def test_names_in_the_text_exist(document):
+    prose = BLOCK.sub("", document.read_text(encoding="utf-8"))
+    for name in re.findall(r"`(coframe(?:\.\w+)+)(?:\([^`]*\))?`", prose):
+        assert name in ENTRY_POINT_GROUPS or exists(name), f"{document.name} names {name}"
+
+
+def exists(name):
+    """Return whether a dotted name is that of a module, or of something in one."""
+    parts = name.split(".")
+    for length in range(len(parts), 0, -1):
+        try:
+            found = importlib.import_module(".".join(parts[:length]))
+        except ModuleNotFoundError:
+            continue
+        for part in parts[length:]:
+            if not hasattr(found, part):
+                return False
+            found = getattr(found, part)
+        return True
+    return False
 
 
 @pytest.mark.parametrize("script", ["handbook_figures.py", "conventions_figures.py"])
