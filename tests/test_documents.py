@@ -14,26 +14,17 @@ import shlex
 import subprocess
 import sys
 from pathlib import Path
-from typing import NamedTuple
 from xml.etree import ElementTree
 
 import click
 import pytest
 from click.testing import CliRunner
+from document_blocks import BLOCK, DOCUMENTS, ROOT, all_blocks, blocks, name_of
 
 import coframe
 from coframe.cli.app import app
 
-ROOT = Path(__file__).parents[1]
-DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "benchmarks" / "README.md"]
-DOCUMENTS += sorted((ROOT / "docs").rglob("*.md")) + sorted((ROOT / "src/coframe/doctor/code_pages").glob("*.md"))
 RUN, CHECKED, PARSED, SHOWN = {"python"}, {"console", "bash"}, {"yaml", "json", "xml"}, {"text"}
-# A block may be in a list or a tab. A comment above a block says why it is not run.
-BLOCK = re.compile(
-    r"(?:^[ \t]*<!-- not run: (?P<reason>[^\n]+?) -->\n)?"
-    r"^(?P<indent>[ \t]*)```(?P<language>\w*)[^\n]*\n(?P<text>.*?)^(?P=indent)```[ \t]*$",
-    re.MULTILINE | re.DOTALL,
-)
 COMMAND_LINE = app
 # Programs of others in the examples. What coframe provides is checked.
 OTHER_PROGRAMS = {
@@ -53,29 +44,6 @@ OTHER_PROGRAMS = {
 }
 # Where other distributions add something; not modules.
 ENTRY_POINT_GROUPS = {f"coframe.{name}" for name in ("checks", "commands", "messages", "middlewares", "recordings")}
-
-
-class Block(NamedTuple):
-    """A code block of a document, without its indentation; `reason` says why it is not run, and is "" if it is."""
-
-    language: str
-    text: str
-    reason: str
-
-
-def blocks(document, languages):
-    """Return the blocks of some languages that are run or checked."""
-    return [block for block in all_blocks(document) if block.language in languages and not block.reason]
-
-
-def all_blocks(document):
-    for match in BLOCK.finditer(document.read_text(encoding="utf-8")):
-        text = re.sub(rf"^{match['indent']}", "", match["text"], flags=re.MULTILINE)
-        yield Block(match["language"], text, match["reason"] or "")
-
-
-def name_of(document):
-    return str(document.relative_to(ROOT))
 
 
 def with_blocks(*languages):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every option that is a duration accepts the same forms, and refuses others with the same sentence."""
 
+import pickle
+
 import click
 import pytest
 
@@ -56,3 +58,9 @@ def test_ranges():
     for text in ("", "1e3", "3 s s", "-", "--1", "nan", "9" * 400, "3d"):
         with pytest.raises(click.BadParameter, match="is not a duration"):
             Duration(text)
+
+
+def test_a_duration_survives_the_way_to_a_worker_process():
+    for kind, text in ((Duration, "-1min"), (NonNegativeDuration, "20ms"), (PositiveDuration, "3")):
+        copied = pickle.loads(pickle.dumps(kind(text)))
+        assert (type(copied), copied, str(copied)) == (kind, kind(text), text)

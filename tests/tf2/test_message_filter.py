@@ -262,7 +262,7 @@ def test_message_older_than_the_buffer(buffer, insert):
             Reason.OutTheBack,
             (
                 "Lookup would require extrapolation into the past.  Requested time 4.000000 but the earliest data is "
-                "at time 5.000000, when looking up transform from frame [laser] to frame [base] "
+                "at time 5.000000, when looking up transform from frame [laser] to frame [base]. "
                 "base -> laser no longer has a sample for the requested time. Use a longer cache, "
                 'tf2_ros.Buffer(cache_time=Duration(seconds=30)) or coframe.Buffer(cache="30s"), '
                 "or request a newer time. "

@@ -89,6 +89,10 @@ class Duration(int):
     def _range_error(self) -> str:
         return ""
 
+    def __reduce__(self) -> tuple[type[Self], tuple[str]]:
+        """Copy the text: pickle would pass the nanoseconds, which are read as seconds, to a worker process."""
+        return type(self), (self._text,)
+
     def __str__(self) -> str:
         return self._text
 
