@@ -209,7 +209,7 @@ class Module:
         alias = ", TypeAlias" if self.compounds else ""
         header += f"from typing import TYPE_CHECKING, Any, Final{alias}\n\n"
         if any("np." in text for text in classes):
-            header += "import numpy as np\n\n"
+            header += "import coframe.lazy_numpy as np\n"
         if self.variants:
             header += "from coframe.distributions import follows\n"
         for module in ("definition", "message"):
@@ -325,7 +325,7 @@ class Module:
             return f"        {field.name}: {field_hint(field.type, _short_name)}"
         if isinstance(field.type, Array):
             self.names["hints"].add("NumberArray")
-            return f"        {field.name} = NumberArray[np.{number.dtype.name}]()"
+            return f"        {field.name} = NumberArray[np.{number.name}]()"
         self.names["hints"].add("NumberSequence")
         return f"        {field.name} = NumberSequence[{field_hint(value_type(field.type), _short_name)}]()"
 

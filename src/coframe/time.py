@@ -12,7 +12,7 @@ import operator
 import re
 from typing import Any, Protocol, SupportsIndex, TypeAlias
 
-import numpy as np
+import coframe.lazy_numpy as np
 
 __all__ = [
     "DAY",
@@ -80,7 +80,7 @@ def stamp_ns(stamp: StampLike) -> int:
         >>> stamp_ns(np.datetime64("1970-01-01T00:00:01.5"))
         1500000000
     """
-    if isinstance(stamp, np.datetime64):
+    if np.is_scalar(stamp) and isinstance(stamp, np.datetime64):
         if np.isnat(stamp):
             raise ValueError("a stamp must not be NaT")
         return int(stamp.astype("datetime64[ns]").astype(np.int64))
@@ -112,7 +112,7 @@ def duration_ns(duration: DurationLike) -> int:
         return _check_range(_parse_duration(duration))
     if isinstance(duration, datetime.timedelta):
         return _timedelta_ns(duration)
-    if isinstance(duration, np.timedelta64):
+    if np.is_scalar(duration) and isinstance(duration, np.timedelta64):
         if np.isnat(duration):
             raise ValueError("a duration must not be NaT")
         return int(duration.astype("timedelta64[ns]").astype(np.int64))

@@ -43,3 +43,48 @@ def test_misspelled_commands_and_options_are_corrected(words, correct):
     assert result.exit_code == 2
     assert "Did you mean" in result.output
     assert correct in result.output
+
+
+TALKER = """
+import sys
+import rclpy
+assert "numpy" not in sys.modules, "import rclpy"
+from rclpy.node import Node
+from std_msgs.msg import String
+rclpy.init()
+node = Node("talker")
+node.declare_parameter("rates", [1.0, 2.0])
+publisher = node.create_publisher(String, "chatter", 10)
+heard = []
+node.create_subscription(String, "chatter", heard.append, 10)
+node.create_timer(0.01, lambda: publisher.publish(String(data="hello")))
+while not heard:
+    rclpy.spin_once(node)
+assert heard[0] == String(data="hello") and str(heard[0])
+rclpy.shutdown()
+assert "numpy" not in sys.modules, "a program without arrays"
+"""
+
+
+def test_nodes_without_arrays_do_not_import_numpy(dds_domain):
+    del dds_domain
+    result = subprocess.run([sys.executable, "-c", TALKER], capture_output=True, text=True, check=False)
+    assert result.returncode == 0, result.stderr
+
+
+def test_names_of_numpy_are_found_at_their_first_use():
+    script = """
+import sys
+import coframe.lazy_numpy as np
+assert not np.is_array([1.0]) and not np.is_scalar(1.0) and "numpy" not in sys.modules
+assert np.is_array(np.zeros(2)) and np.is_scalar(np.float32(1)) and not np.is_scalar(1.0)
+import numpy
+assert np.ndarray is numpy.ndarray
+try:
+    np.no_such_name
+except AttributeError as error:
+    assert "no_such_name" in str(error)
+else:
+    raise AssertionError
+"""
+    subprocess.run([sys.executable, "-c", script], check=True)

@@ -5,8 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
-
+import coframe.lazy_numpy as np
 from coframe._output.formatting import duration
 from coframe.time import MICROSECOND, SECOND
 

@@ -10,8 +10,7 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING, overload
 
-import numpy as np
-
+import coframe.lazy_numpy as np
 from coframe.time import MILLISECOND, SECOND
 
 if TYPE_CHECKING:

@@ -11,8 +11,7 @@ import threading
 from array import array
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
+import coframe.lazy_numpy as np
 from coframe.errors import CoframeError, InterfaceError
 from coframe.messages._class_limits import check_limits
 from coframe.messages._constructors import default_assignments

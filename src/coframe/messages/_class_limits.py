@@ -58,7 +58,7 @@ class _Extents:
             return _Extent()
         number = number_of(type_)
         if number is not None:
-            return _Extent(_OBJECT + (type_.size * number.dtype.itemsize if isinstance(type_, Array) else 0))
+            return _Extent(_OBJECT + (type_.size * number.itemsize if isinstance(type_, Array) else 0))
         inner = self._extent_of_type(type_.value_type)
         count = type_.size if isinstance(type_, Array) else 0
         # The encoder writes booleans and octets without a loop.

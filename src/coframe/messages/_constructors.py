@@ -35,7 +35,7 @@ def _default(field: Field, class_name: Callable[[NamespacedType], str]) -> str:
     if isinstance(type_, NamespacedType):
         return f'fields.get("{field.name}") or {class_name(type_)}()'
     if isinstance(type_, Array) and number:
-        return f"np.zeros({type_.size}, np.{number.dtype.name})"
+        return f"np.zeros({type_.size}, np.{number.name})"
     if isinstance(type_, Array):
         return f"[{_zero_value(type_.value_type, class_name)} for _ in range({type_.size})]"
     if number:
@@ -48,7 +48,7 @@ def _given_default(value: Any, type_: AbstractType) -> str:
     if number is None:
         return _literal(value)
     if isinstance(type_, Array):
-        return f"np.array({_literal(value)}, np.{number.dtype.name})"
+        return f"np.array({_literal(value)}, np.{number.name})"
     return f'array("{number.code}", {_literal(value)})'
 
 

@@ -12,8 +12,7 @@ import os
 from array import array
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
+import coframe.lazy_numpy as np
 from coframe.distributions import since
 from coframe.messages.definition import AbstractNestedType, AbstractString, AbstractType, Array, BasicType
 
@@ -52,7 +51,7 @@ def conversion(type_: AbstractType, code: str) -> Callable[[Any], Any] | None:
     def convert(value: Any) -> Any:
         if isinstance(value, _NOT_NUMBERS):
             raise TypeError
-        if isinstance(value, np.ndarray) and code:
+        if np.is_array(value) and code:
             numbers = _numbers(value.reshape(-1) if is_array else value, np.dtype(code))
             return numbers if is_array else array(code, numbers.tobytes())
         values: Iterable[Any] = value
@@ -82,19 +81,19 @@ def _of_item(type_: BasicType) -> Callable[[Any], Any] | None:
 
 
 def _to_float(value: Any) -> float:
-    if isinstance(value, (*_NOT_NUMBERS, np.ndarray)):
+    if isinstance(value, _NOT_NUMBERS) or np.is_array(value):
         raise TypeError
     return float(value)
 
 
 def _to_bool(value: Any) -> bool:
-    if not isinstance(value, np.bool_):
+    if not (np.is_scalar(value) and isinstance(value, np.bool_)):
         raise TypeError
     return bool(value)
 
 
 def _to_list_of_text(value: Any) -> list[Any]:
-    if not isinstance(value, np.ndarray):
+    if not np.is_array(value):
         raise TypeError
     items: list[Any] = value.tolist()
     return items

@@ -7,8 +7,7 @@ import sys
 from array import array
 from typing import Any
 
-import numpy as np
-
+import coframe.lazy_numpy as np
 from coframe.messages._compiler import Compiler, Plan, RejectedValueError
 from coframe.messages._fields import NumberFormat, number_of
 from coframe.messages._layout import CODES, EMPTY_STRUCT_CODE, Offset, ros1_prefix, smallest_size
@@ -140,9 +139,9 @@ class _Decoder(Compiler):
 
     def _number_array(self, type_: Array, number: NumberFormat, place: str) -> None:
         self.flush()
-        self._align(number.dtype.itemsize)
-        size = type_.size * number.dtype.itemsize
-        end = self._end(str(type_.size), number.dtype.itemsize)
+        self._align(number.itemsize)
+        size = type_.size * number.itemsize
+        end = self._end(str(type_.size), number.itemsize)
         stored = self.constant(number.dtype.newbyteorder(self.order))
         kept = self.constant(number.dtype)
         frombuffer = self.constant(np.frombuffer)
@@ -155,13 +154,13 @@ class _Decoder(Compiler):
         self.emit(f"{values} = {place} = array({number.code!r})")
         empty = self.offset
         with self.block(f"if {length}:"):
-            self._align(number.dtype.itemsize)
-            end = self._end(length, number.dtype.itemsize)
+            self._align(number.itemsize)
+            end = self._end(length, number.itemsize)
             self.emit(f"{values}.frombytes(view[pos:{end}])")
             if self.needs_swap:
                 self.emit(f"{values}.byteswap()")
             self.emit(f"pos = {end}")
-        self.offset = empty | Offset(number.dtype.itemsize, 0)
+        self.offset = empty | Offset(number.itemsize, 0)
 
     def _bytes(self, value_type: BasicType, length: str, place: str) -> None:
         end = self._end(length, 1)

@@ -7,8 +7,7 @@ import sys
 from array import array
 from typing import Any
 
-import numpy as np
-
+import coframe.lazy_numpy as np
 from coframe.messages._compiler import Compiler, Plan, RejectedValueError
 from coframe.messages._fields import NumberFormat, number_of
 from coframe.messages._layout import CODES, EMPTY_STRUCT_CODE, Offset
@@ -120,10 +119,10 @@ class _Encoder(Compiler):
 
     def _number_array(self, type_: Array, number: NumberFormat, place: str) -> None:
         self.flush()
-        self._align(number.dtype.itemsize)
+        self._align(number.itemsize)
         dtype = self.constant(number.dtype.newbyteorder("<"))
         self.emit(f"out += {self.constant(_array_bytes)}({place}, {dtype}, {type_.size})")
-        self.offset += type_.size * number.dtype.itemsize
+        self.offset += type_.size * number.itemsize
 
     def _number_sequence(self, number: NumberFormat, values: str) -> None:
         with self.block(f"if {values}.typecode != {number.code!r}:"):
@@ -131,9 +130,9 @@ class _Encoder(Compiler):
         self._swap(values)
         empty = self.offset
         with self.block(f"if {values}:"):  # An empty sequence has no padding.
-            self._align(number.dtype.itemsize)
+            self._align(number.itemsize)
             self.emit(f"out += {values}")
-        self.offset = empty | Offset(number.dtype.itemsize, 0)
+        self.offset = empty | Offset(number.itemsize, 0)
 
     def _bytes(self, value_type: BasicType, values: str) -> None:
         if value_type.typename == "octet":

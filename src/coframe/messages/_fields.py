@@ -13,12 +13,13 @@ from array import array
 from collections import UserList, UserString
 from collections.abc import Callable, Collection, Iterable, Sequence
 from collections.abc import Set as AbstractSet
+from functools import cached_property
 from math import isinf
 from operator import attrgetter
-from typing import Any, NamedTuple
+from struct import calcsize
+from typing import Any
 
-import numpy as np
-
+import coframe.lazy_numpy as np
 from coframe.messages._conversions import CONVERTS, conversion
 from coframe.messages.definition import (
     AbstractNestableType,
@@ -39,24 +40,37 @@ CHECKS_FIELDS = __debug__ and os.environ.get("ROS_PYTHON_CHECK_FIELDS", "1") != 
 Check = Callable[[Any], Any]
 
 
-class NumberFormat(NamedTuple):
-    """The Python representation of a number type: the type code of array.array and the dtype of NumPy."""
+class NumberFormat:
+    """The Python representation of a number type.
 
-    code: str
-    dtype: np.dtype[Any]
+    Attributes:
+        code: The type code of array.array.
+        name: The name of NumPy's dtype.
+        itemsize: The size of a number in bytes.
+    """
+
+    def __init__(self, code: str, name: str) -> None:
+        self.code = code
+        self.name = name
+        self.itemsize = calcsize(f"={code}")
+
+    @cached_property
+    def dtype(self) -> np.dtype[Any]:
+        """NumPy's dtype."""
+        return np.dtype(self.name)
 
 
 NUMBERS = {
-    "float": NumberFormat("f", np.dtype("float32")),
-    "double": NumberFormat("d", np.dtype("float64")),
-    "int8": NumberFormat("b", np.dtype("int8")),
-    "uint8": NumberFormat("B", np.dtype("uint8")),
-    "int16": NumberFormat("h", np.dtype("int16")),
-    "uint16": NumberFormat("H", np.dtype("uint16")),
-    "int32": NumberFormat("i", np.dtype("int32")),
-    "uint32": NumberFormat("I", np.dtype("uint32")),
-    "int64": NumberFormat("q", np.dtype("int64")),
-    "uint64": NumberFormat("Q", np.dtype("uint64")),
+    "float": NumberFormat("f", "float32"),
+    "double": NumberFormat("d", "float64"),
+    "int8": NumberFormat("b", "int8"),
+    "uint8": NumberFormat("B", "uint8"),
+    "int16": NumberFormat("h", "int16"),
+    "uint16": NumberFormat("H", "uint16"),
+    "int32": NumberFormat("i", "int32"),
+    "uint32": NumberFormat("I", "uint32"),
+    "int64": NumberFormat("q", "int64"),
+    "uint64": NumberFormat("Q", "uint64"),
 }
 _FLOAT32_BOUND = 3.402823466e38
 _FLOAT64_BOUND = 1.7976931348623157e308
@@ -117,7 +131,7 @@ def constructor_conversion(type_: AbstractType) -> Check | None:
 
 
 def _number_sequence(number: NumberFormat, values: Iterable[Any]) -> array[Any]:
-    if isinstance(values, np.ndarray):
+    if np.is_array(values):
         values = values.tolist()  # Faster: array.array would read one NumPy scalar after another.
     return array(number.code, values)
 
@@ -232,9 +246,9 @@ def _number_array_check(name: str, type_: Array, number: NumberFormat) -> Check:
     check_values = _values_check(name, type_)
 
     def check(value: Any) -> Any:
-        if isinstance(value, np.ndarray):
+        if np.is_array(value):
             assert not CHECKS_FIELDS or value.dtype == number.dtype, (
-                f"The '{name}' numpy.ndarray() must have the dtype of 'numpy.{number.dtype.name}'"
+                f"The '{name}' numpy.ndarray() must have the dtype of 'numpy.{number.name}'"
             )
             assert not CHECKS_FIELDS or value.size == type_.size, (
                 f"The '{name}' numpy.ndarray() must have a size of {type_.size}"

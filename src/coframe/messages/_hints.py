@@ -5,17 +5,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-import numpy as np
-
 if TYPE_CHECKING:
     from array import array
     from collections.abc import Sequence
     from collections.abc import Set as AbstractSet
 
+    import numpy as np
     import numpy.typing as npt
 
 N = TypeVar("N", int, float)
-D = TypeVar("D", bound=np.generic)
+D = TypeVar("D", bound="np.generic")
 
 
 class NumberSequence(Generic[N]):

@@ -116,7 +116,7 @@ class _Stub:
         if number is None:
             return field_hint(field.type, self._name)
         if isinstance(field.type, Array):
-            return f"NumberArray[np.{number.dtype.name}]"
+            return f"NumberArray[np.{number.name}]"
         return f"NumberSequence[{field_hint(value_type(field.type), self._name)}]"
 
     def _name(self, type_: NamespacedType) -> str:

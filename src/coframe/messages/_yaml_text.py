@@ -9,7 +9,7 @@ from array import array
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
+import coframe.lazy_numpy as np
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -86,7 +86,7 @@ def _value(value: Any, most: int | None) -> str:
         return _text(shown) + _omitted_text(len(value), most, "character")
     if isinstance(value, bytes) and len(value) == 1:  # ROS's type byte
         return str(value[0])
-    if isinstance(value, (list, tuple, array, np.ndarray, bytes, bytearray)):
+    if isinstance(value, (list, tuple, array, bytes, bytearray)) or np.is_array(value):
         return f"[{', '.join(_value(item, most) for item in islice(value, most))}]{_omitted_text(len(value), most)}"
     return _number(value)
 
@@ -98,15 +98,17 @@ def _omitted_text(size: int, most: int | None, noun: str = "item") -> str:
 
 
 def _number(value: Any) -> str:
-    if isinstance(value, (bool, np.bool_)):
+    if np.is_scalar(value):
+        value = value.item()
+    if isinstance(value, bool):
         return "true" if value else "false"
-    if not isinstance(value, (float, np.floating)):
+    if not isinstance(value, float):
         return str(int(value))
     if math.isnan(value):
         return ".nan"
     if math.isinf(value):
         return ".inf" if value > 0 else "-.inf"
-    text = repr(float(value))
+    text = repr(value)
     mantissa, exponent, power = text.partition("e")
     # YAML 1.1 reads 1e-05 as text, and 1.0e-05 as a number.
     return f"{mantissa}.0e{power}" if exponent and "." not in mantissa else text

@@ -7,8 +7,7 @@ from itertools import islice
 from operator import ne
 from typing import Any, ClassVar, Final
 
-import numpy as np
-
+import coframe.lazy_numpy as np
 from coframe._output import html_tables
 from coframe.errors import DecodeError
 from coframe.messages._fields import CHECKS_FIELDS, Check, attribute, constructor_conversion, number_of
@@ -150,7 +149,7 @@ def _register(cls: type[Message | Service | Action]) -> None:
 
 
 def _differ(left: Any, right: Any) -> bool:
-    if isinstance(left, np.ndarray):
+    if np.is_array(left):
         return not np.array_equal(left, right)
     return ne(left, right)  # type: ignore[no-any-return]
 
@@ -162,7 +161,7 @@ def _show(value: Any, type_: AbstractType, most: int | None) -> str:
     if not isinstance(type_, AbstractNestedType):
         return repr(value)
     if most is not None and len(value) > most:
-        first = value[:_FIRST_ITEMS].tolist() if isinstance(value, np.ndarray) else islice(value, _FIRST_ITEMS)
+        first = value[:_FIRST_ITEMS].tolist() if np.is_array(value) else islice(value, _FIRST_ITEMS)
         return f"[{', '.join(_show_item(item, most) for item in first)}, ...] ({len(value)} items)"
     if isinstance(type_, AbstractSequence) and number_of(type_):
         return repr(value)[len("array('X', ") : -1] if len(value) else "[]"

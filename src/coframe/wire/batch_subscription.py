@@ -5,8 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
-
+import coframe.lazy_numpy as np
 from coframe.wire.endpoints import LocalEndpoint
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from numbers import Number
 from typing import Any
 
-import numpy as np
+import coframe.lazy_numpy as np
 
 
 def to_python(value: Any) -> Any:
@@ -14,7 +14,7 @@ def to_python(value: Any) -> Any:
 
     NumPy's integers must not be multiplied by 1e9, because the product does not fit into their types.
     """
-    if not isinstance(value, np.generic):
+    if not np.is_scalar(value):
         return value
     if isinstance(value, np.bool_):
         return bool(value)
@@ -32,10 +32,10 @@ def require_number(value: Any) -> float:
     if isinstance(value, int | float):
         return value
     number = to_python(value)
-    if isinstance(number, Number) and not isinstance(number, np.generic):
+    if isinstance(number, Number) and not np.is_scalar(number):
         return number  # type: ignore[return-value] # Decimal and Fraction can be multiplied and truncated as well.
     if isinstance(value, str):
         raise TypeError(f"Expected a number, got the string {value!r}. Convert it with float(...) first.")
-    if isinstance(value, np.generic) or not hasattr(value, "__float__"):
+    if np.is_scalar(value) or not hasattr(value, "__float__"):
         raise TypeError(f"Expected a number, got {value!r} of type {type(value).__name__}.")
     return float(value)

@@ -7,8 +7,7 @@ import array
 from enum import Enum, IntEnum
 from typing import Any, Final, Generic, TypeVar
 
-import numpy as np
-
+import coframe.lazy_numpy as np
 from coframe._files.os_errors import reason
 from rcl_interfaces.msg import Parameter as ParameterMsg
 from rcl_interfaces.msg import ParameterType, ParameterValue
@@ -71,7 +70,7 @@ class Parameter(Generic[T]):
                 f"The given value is not {'a list of ' * is_list}one of the allowed types '{parameter_value}'."
             )
             hint = "Use a bool, int, float or str, or a list of one of these types or of bytes of length 1."
-            if isinstance(parameter_value, np.ndarray):
+            if np.is_array(parameter_value):
                 hint = "Convert the NumPy array with its method tolist()."
             raise _with_hint(error, hint)
 
@@ -156,7 +155,7 @@ _ITEM_TYPES: Final[dict[Parameter.Type, type]] = {
     Parameter.Type.DOUBLE_ARRAY: float,
     Parameter.Type.STRING_ARRAY: str,
 }
-_PYTHON_TYPES: Final = frozenset({bool, int, float, str, type(None)})
+_PYTHON_TYPES: Final = frozenset({bool, int, float, str, bytes, type(None)})
 _VALUE_FIELDS: Final = {kind: f"{kind.name.lower()}_value" for kind in Parameter.Type if kind.value}
 
 
@@ -178,8 +177,10 @@ def _to_python(value: Any) -> Any:
     """Return NumPy's numbers and booleans as Python's, also in a list. Any other value itself."""
     if type(value) in _PYTHON_TYPES:  # The usual case, and much faster.
         return value
-    if isinstance(value, list | tuple) and any(issubclass(kind, np.generic) for kind in {*map(type, value)}):
-        return [to_python(item) for item in value]
+    if isinstance(value, list | tuple):
+        others = {*map(type, value)} - _PYTHON_TYPES
+        if others and any(issubclass(kind, np.generic) for kind in others):
+            return [to_python(item) for item in value]
     return to_python(value)
 
 

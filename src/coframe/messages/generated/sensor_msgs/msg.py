@@ -6,8 +6,7 @@ from __future__ import annotations
 from array import array
 from typing import TYPE_CHECKING, Any, Final
 
-import numpy as np
-
+import coframe.lazy_numpy as np
 from coframe.distributions import follows
 from coframe.messages.definition import Array, BasicType, NamespacedType, UnboundedSequence, UnboundedString
 from coframe.messages.message import Message

@@ -5,8 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
-import numpy as np
-
+import coframe.lazy_numpy as np
 from coframe.messages.definition import Array, BasicType
 from coframe.messages.message import Message
 
