@@ -48,26 +48,26 @@ def test_misspelled_commands_and_options_are_corrected(words, correct):
 TALKER = """
 import sys
 import rclpy
-assert "numpy" not in sys.modules, "import rclpy"
+import tf2_ros
+assert "numpy" not in sys.modules, "import rclpy, tf2_ros"
 from rclpy.node import Node
 from std_msgs.msg import String
 rclpy.init()
 node = Node("talker")
 node.declare_parameter("rates", [1.0, 2.0])
 publisher = node.create_publisher(String, "chatter", 10)
-heard = []
-node.create_subscription(String, "chatter", heard.append, 10)
+messages = []
+node.create_subscription(String, "chatter", messages.append, 10)
 node.create_timer(0.01, lambda: publisher.publish(String(data="hello")))
-while not heard:
+while not messages:
     rclpy.spin_once(node)
-assert heard[0] == String(data="hello") and str(heard[0])
+assert messages[0] == String(data="hello") and str(messages[0])
 rclpy.shutdown()
 assert "numpy" not in sys.modules, "a program without arrays"
 """
 
 
-def test_nodes_without_arrays_do_not_import_numpy(dds_domain):
-    del dds_domain
+def test_nodes_without_arrays_do_not_import_numpy(domain_id):  # noqa: ARG001 - sets the domain of the process
     result = subprocess.run([sys.executable, "-c", TALKER], capture_output=True, text=True, check=False)
     assert result.returncode == 0, result.stderr
 

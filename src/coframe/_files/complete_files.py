@@ -6,7 +6,6 @@ from __future__ import annotations
 import os
 import sys
 import time
-import uuid
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -35,7 +34,7 @@ def complete_or_absent(path: str | os.PathLike[str]) -> Iterator[Path]:
         yield path
         return
     path = Path(os.path.realpath(path))  # A symbolic link is kept, even if it points to itself.
-    part = path.with_name(f".{path.name}.{uuid.uuid4().hex[:12]}.part")
+    part = path.with_name(f".{path.name}.{os.urandom(6).hex()}.part")
     try:
         yield part
         _replace(part, path)

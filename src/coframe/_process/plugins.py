@@ -33,9 +33,10 @@ if TYPE_CHECKING:
 __all__ = ["Plugin", "PluginError", "load_plugins", "plugins"]
 
 MAX_BYTES: Final = 1 << 20  # of a file with entry points
-_METADATA: Final = re.compile(r"(.+?)(?:-[^-]+)?(?:-py[\d.]+)?\.(?:dist-info|egg-info)")
-_SECTION_LINE: Final = re.compile(r"\[(.+)\]")
-_ENTRY_LINE: Final = re.compile(r"([^=#;\[]+?)\s*=\s*([\w.]+(?::[\w.]+)?)\s*(?:\[.*\])?")
+# Python compiles the patterns when they are used: most programs have no plug-ins.
+_METADATA: Final = r"(.+?)(?:-[^-]+)?(?:-py[\d.]+)?\.(?:dist-info|egg-info)"
+_SECTION_LINE: Final = r"\[(.+)\]"
+_ENTRY_LINE: Final = r"([^=#;\[]+?)\s*=\s*([\w.]+(?::[\w.]+)?)\s*(?:\[.*\])?"
 
 
 class PluginError(CoframeError, RuntimeError):
@@ -139,7 +140,7 @@ def _entry_points(folder: str, _modification_time: int) -> tuple[Plugin, ...]:
         return ()
     found: list[Plugin] = []
     for name in names:
-        if metadata := _METADATA.fullmatch(name):
+        if metadata := re.fullmatch(_METADATA, name):
             package = re.sub(r"[-_.]+", "-", metadata[1]).lower()
             found += _parse_entry_points(os.path.join(folder, name, "entry_points.txt"), package)  # noqa: PTH118
     return tuple(found)
@@ -153,7 +154,7 @@ def _parse_entry_points(path: str, package: str) -> Iterator[Plugin]:
         return
     group = ""
     for line in map(str.strip, text.splitlines()):
-        if section := _SECTION_LINE.fullmatch(line):
+        if section := re.fullmatch(_SECTION_LINE, line):
             group = section[1].strip()
-        elif (entry := _ENTRY_LINE.fullmatch(line)) and entry[1].isprintable():
+        elif (entry := re.fullmatch(_ENTRY_LINE, line)) and entry[1].isprintable():
             yield Plugin(group, entry[1], entry[2], package)

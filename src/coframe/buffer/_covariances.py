@@ -13,8 +13,7 @@ import struct
 import threading
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
+import coframe.lazy_numpy as np
 from coframe import _core
 from coframe.buffer._storing import check_frames
 from coframe.errors import InvalidArgumentException

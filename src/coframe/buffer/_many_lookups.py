@@ -5,8 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal, TypeAlias, overload
 
-import numpy as np
-
+import coframe.lazy_numpy as np
 from coframe import _core, time
 from coframe.buffer import _covariances, gaps
 from coframe.errors import ExtrapolationException

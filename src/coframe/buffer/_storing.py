@@ -5,8 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
+import coframe.lazy_numpy as np
 from coframe import _core, time
 from coframe.errors import InvalidArgumentException
 from coframe.transform.values import stamps_of

@@ -8,8 +8,7 @@ import sys
 import warnings
 from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
-import numpy as np
-
+import coframe.lazy_numpy as np
 from coframe._base_error import CoframeWarning
 from coframe._output.formatting import count, duration
 from coframe.analysis.liveness import usual_gap, usual_period
@@ -46,7 +45,7 @@ MAX_GAP = 500 * MILLISECOND
 """The longest interval between two transforms over which commands that write poses interpolate, in nanoseconds."""
 MAX_GAP_PERIODS = 4
 """The same for a trajectory that is compared or calibrated, as a multiple of the median interval of its poses."""
-_MIN_STAMP, _MAX_STAMP = np.iinfo(np.int64).min + 1, np.iinfo(np.int64).max
+_MIN_STAMP, _MAX_STAMP = -(2**63) + 1, 2**63 - 1
 _MIN_INTERVALS = 10  # With fewer, the usual period of an edge is not known.
 
 

@@ -7,8 +7,6 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Final, TypeVar
 
-import numpy as np
-
 from coframe import frame_names
 from coframe.buffer.buffer import Buffer, cache_length
 from coframe.connection._connection_buffer import ConnectionBuffer
@@ -120,7 +118,7 @@ class ListenerConfig:
         return self._buffer(ConnectionBuffer)
 
     def _buffer(self, kind: type[_B]) -> _B:
-        cache = None if self.cache < 0 else np.timedelta64(self.cache, "ns")
+        cache = None if self.cache < 0 else f"{self.cache}ns"
         return kind(cache, interpolation=self.interpolation)
 
     @cached_property

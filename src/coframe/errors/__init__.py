@@ -47,9 +47,6 @@ from coframe._base_error import CoframeError, CoframeWarning
 from coframe._output.escaping import display_name
 from coframe._output.formatting import MAX_COMPARED_LENGTH, duration, join_names, seconds
 from coframe._process.plugins import PluginError
-from coframe.analysis.missing_edges import missing_edge
-from coframe.analysis.similar_frames import similar_frames
-from coframe.analysis.tree import FrameTrees
 from coframe.errors.lookup_hints import doctor_code, hint
 from coframe.time import DAY, MICROSECOND, MILLISECOND, SECOND
 
@@ -418,12 +415,17 @@ def _frame_name_hint(failure: Failure) -> str:
 
 def _similar_names(name: str, known: list[str]) -> list[str]:
     """Return the frames that may have been meant: the same name with another prefix, or a similar spelling."""
+    from coframe.analysis.similar_frames import similar_frames  # noqa: PLC0415 - only hints need it
+
     bare = name.rpartition("/")[2]
     same = [frame for frame in known if frame.rpartition("/")[2] == bare and len(frame) <= MAX_COMPARED_LENGTH]
     return same[:_MAX_GUESSES] or similar_frames(name, known)
 
 
 def _trees(failure: Failure) -> str:
+    from coframe.analysis.missing_edges import missing_edge  # noqa: PLC0415 - only hints need it
+    from coframe.analysis.tree import FrameTrees  # noqa: PLC0415
+
     roots = failure.roots or ("", "")
     structure = FrameTrees.from_parents(failure.parents)
     trees = [structure.tree(root) for root in roots]

@@ -28,7 +28,7 @@ __all__ = [
 KINDS = ("msg", "srv", "action")
 MAX_BYTES = 1 << 18  # per file; the largest ones in public packages have 20 000
 PACKAGE_NAME = re.compile(r"[a-z](?:_?[a-z0-9])*")
-_NAME_ELEMENT = re.compile(r"<name>\s*([\w-]+)\s*</name>")
+_NAME_ELEMENT = r"<name>\s*([\w-]+)\s*</name>"
 
 
 class Definition(NamedTuple):
@@ -79,7 +79,8 @@ def package_name(folder: Path) -> str | None:
     name, manifest = folder.name, folder / "package.xml"
     if exists(manifest):
         try:
-            match = _NAME_ELEMENT.search(read_regular(manifest, MAX_BYTES).decode("utf-8", "replace"))
+            text = read_regular(manifest, MAX_BYTES).decode("utf-8", "replace")
+            match = re.search(_NAME_ELEMENT, text)
         except OSError as error:
             report(f"{manifest} is skipped in the search for interface packages: {error.strerror}")
             return None

@@ -6,8 +6,6 @@ Hashes are computed from the message classes when they are first needed, in abou
 
 from __future__ import annotations
 
-import hashlib
-import json
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -85,6 +83,8 @@ def type_hash(interface: Any) -> str:
         >>> type_hash(find("std_msgs/msg/String"))
         'RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18'
     """
+    import hashlib  # noqa: PLC0415 - it loads OpenSSL, which takes 3 ms
+
     return _PREFIX + hashlib.sha256(description_text(interface).encode()).hexdigest()
 
 
@@ -158,6 +158,8 @@ def _describe_type(
         fields: The types of its fields.
         without_class: The descriptions of types that have no class.
     """
+    import json  # noqa: PLC0415 - most programs need no description
+
     referenced: dict[str, str] = {}
     for nested in filter(None, map(_nested_name, fields.values())):
         described = (without_class or {}).get(nested) or _description(find(nested))

@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
+import coframe.lazy_numpy as np
 from coframe import _core, quaternion
 from coframe.errors import FrameMismatchException, InvalidArgumentException
 from coframe.transform import _covariance
@@ -30,8 +30,11 @@ if TYPE_CHECKING:
     from coframe.transform.interpolation import Interpolation
     from coframe.transform.transform import Transform
 
-# Translations and quaternions, as the native core takes them.
-_IDENTITY = (np.zeros((1, 3)), np.array([[0.0, 0.0, 0.0, 1.0]]))
+
+@cache
+def _identity() -> tuple[Array, Array]:
+    """Return a translation and a quaternion, as the native core takes them."""
+    return np.zeros((1, 3)), np.array([[0.0, 0.0, 0.0, 1.0]])
 
 
 class TransformAlgebra(TransformValues):
@@ -105,7 +108,7 @@ class TransformAlgebra(TransformValues):
         if (single := _core.invert_single(self)) is not None:
             return single
         rows = np.empty((int(np.prod(self.shape)), 7))
-        _core.compose_batches(pose_rows(self, self.shape), _IDENTITY, True, rows)
+        _core.compose_batches(pose_rows(self, self.shape), _identity(), True, rows)
         found = _transform_of_rows(rows, self.shape, self.source, self.target, any_stamp(self))
         if self.covariance is None:
             return found

@@ -6,8 +6,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
+import coframe.lazy_numpy as np
 from coframe.errors import InvalidArgumentException
 
 if TYPE_CHECKING:
@@ -44,7 +43,7 @@ def single_pose(
 
 def _few_numbers(values: Any, count: int) -> Sequence[Any] | None:
     """Return the numbers of an array of shape (count,), a tuple or a list, or None for other values."""
-    if isinstance(values, np.ndarray):
+    if np.is_array(values):
         return values.tolist() if values.shape == (count,) else None
     return values if isinstance(values, tuple | list) and len(values) == count else None
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
+import coframe.lazy_numpy as np
 from coframe import quaternion
 from coframe.errors import InvalidArgumentException
 from coframe.transform._algebra import TransformAlgebra

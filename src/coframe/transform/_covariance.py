@@ -13,19 +13,20 @@ covariance is that of D xi, where D turns both parts of xi from the axes of the 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from functools import cache
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
+import coframe.lazy_numpy as np
 from coframe.errors import InvalidArgumentException
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from numpy.typing import ArrayLike, NDArray
+
     from coframe.transform.transform import Transform
 
-Array = NDArray[np.float64]
+Array: TypeAlias = "NDArray[np.float64]"
 
 # How much a matrix may differ from a symmetric one without negative eigenvalues, relative to its largest number; allows
 # matrices that were stored as float32.
@@ -159,9 +160,9 @@ def compound_covariances(first: Array | None, second: Array | None, rotation: Ar
     if a is None or b is None:
         return a if b is None else b  # type: ignore[return-value]  # one of them is known
     a, b = np.broadcast_arrays(a, b)
-    twice_a = np.einsum("...ij,ikl,jlm->...km", a, _BRACKETS, _BRACKETS)
-    twice_b = np.einsum("...ij,ikl,jlm->...km", b, _BRACKETS, _BRACKETS)
-    once = np.einsum("...ij,ikl,...lm,jnm->...kn", a, _BRACKETS, b, _BRACKETS, optimize=True)
+    twice_a = np.einsum("...ij,ikl,jlm->...km", a, _bracket_matrices(), _bracket_matrices())
+    twice_b = np.einsum("...ij,ikl,jlm->...km", b, _bracket_matrices(), _bracket_matrices())
+    once = np.einsum("...ij,ikl,...lm,jnm->...kn", a, _bracket_matrices(), b, _bracket_matrices(), optimize=True)
     half = twice_a @ b + twice_b @ a
     result: Array = a + b + 0.25 * once + (half + np.swapaxes(half, -1, -2)) / 12.0
     return result
@@ -241,7 +242,7 @@ def _lever_matrix(arm: Array) -> Array:
 
 def _right_jacobian(twist: Array) -> Array:
     """Return J with exp(x + d) = exp(x) exp(J d) for small d: the sum of (-ad x)^n / (n + 1)!."""
-    bracket = -np.einsum("...i,ijk->...jk", twist, _BRACKETS)
+    bracket = -np.einsum("...i,ijk->...jk", twist, _bracket_matrices())
     term = np.broadcast_to(np.eye(6), bracket.shape)
     total: Array = term.copy()
     for n in range(1, 30):  # the angles are at most pi, and pi^30 / 31! is below 1e-18
@@ -283,6 +284,7 @@ def _cross(vectors: Array) -> Array:
     return matrix
 
 
+@cache
 def _bracket_matrices() -> Array:
     """Return the matrices of the Lie bracket with each of the six unit twists, shape (6, 6, 6)."""
     crosses = _cross(np.eye(3))
@@ -290,6 +292,3 @@ def _bracket_matrices() -> Array:
     brackets[:3, :3, 3:] = crosses
     brackets[3:, :3, :3] = brackets[3:, 3:, 3:] = crosses
     return brackets
-
-
-_BRACKETS = _bracket_matrices()

@@ -14,8 +14,7 @@ import sys
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
+import coframe.lazy_numpy as np
 from coframe.errors import FrameMismatchException
 from coframe.time import SECOND, stamp_ns
 

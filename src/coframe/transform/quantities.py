@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
+import coframe.lazy_numpy as np
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -4,19 +4,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
-
+import coframe.lazy_numpy as np
 from coframe import quaternion
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from numpy.typing import NDArray
+
     from coframe.transform.transform import Transform
 
-Stamps = NDArray[np.int64]
+Stamps: TypeAlias = "NDArray[np.int64]"
 
 # Steps are divided into parts of equal time. Parts that are still too long are divided again, at most this many times.
 _MAX_ROUNDS = 30

@@ -3,11 +3,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
+import coframe.lazy_numpy as np
 from coframe import _core, quaternion
 from coframe._output import html_tables
 from coframe.time import stamp_ns
@@ -19,12 +17,14 @@ from coframe.transform.values import IDENTITY, any_stamp, arrow, batch_of, broad
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from numpy.typing import ArrayLike, NDArray
+
     from coframe.time import StampLike
     from coframe.viewer import Viewer
 
 __all__ = ["Transform"]
 
-Array = NDArray[np.float64]
+Array: TypeAlias = "NDArray[np.float64]"
 
 # Marks arguments that replace() was not given.
 _KEEP: Any = object()

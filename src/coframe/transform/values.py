@@ -5,8 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
+import coframe.lazy_numpy as np
 from coframe import _core, quaternion
 from coframe.errors import FrameMismatchException
 from coframe.transform import _covariance

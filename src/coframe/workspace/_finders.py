@@ -30,7 +30,7 @@ __all__ = ["find_last", "find_module", "find_package", "install"]
 
 _FINDER = "CoframeInterfaces"  # class name of the finders
 _KINDS = ("msg", "srv", "action")
-_PACKAGE = re.compile(r"[a-z](?:_?[a-z0-9])*")
+_PACKAGE = r"[a-z](?:_?[a-z0-9])*"
 # Packages of messages and services that many programs import, and whose names do not show what they are.
 _INTERFACES = {"unitree_api", "unitree_hg"}
 # Packages that many programs import, and of which no package registry has the definitions.
@@ -39,7 +39,7 @@ _SOURCES = {
     "unitree_api": "unitreerobotics/unitree_ros2",
     "unitree_hg": "unitreerobotics/unitree_ros2",
 }
-_INTERFACE_PACKAGE_NAME = re.compile(r".*_(?:msgs?|srvs?|actions?|interfaces?)")
+_INTERFACE_PACKAGE_NAME = r".*_(?:msgs?|srvs?|actions?|interfaces?)"
 
 
 def install() -> None:
@@ -95,7 +95,7 @@ def find_package(name: str, path: Sequence[str] | None = None, _target: object =
         name: The full name of the module.
         path: None for a package.
     """
-    if path is not None or not _PACKAGE.fullmatch(name) or name in sys.stdlib_module_names or _is_foreign():
+    if path is not None or not re.fullmatch(_PACKAGE, name) or name in sys.stdlib_module_names or _is_foreign():
         return None
     return _search_guarded(partial(_find_package, name)) if _is_wanted(name) else None
 
@@ -105,7 +105,7 @@ def _find_package(name: str) -> ModuleSpec | None:
 
     if find_folder(name) is not None:
         return _spec(name, _PackageLoader())
-    if _INTERFACE_PACKAGE_NAME.fullmatch(name) or name in _INTERFACES:
+    if re.fullmatch(_INTERFACE_PACKAGE_NAME, name) or name in _INTERFACES:
         raise ModuleNotFoundError(_advice(name), name=name)
     return None
 

@@ -12,57 +12,15 @@ This package is used if no ROS installation is sourced. A ROS installation on th
 
 from __future__ import annotations
 
-import sys
 from contextlib import contextmanager
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from coframe.workspace import ros_side
 
 ros_side.check(__name__)
 
-# The modules are imported because programs use them as attributes, for example rclpy.time.Time.
-from rclpy import (
-    _absent,
-    action,
-    callback_groups,
-    client,
-    clock,
-    clock_type,
-    constants,
-    context,
-    duration,
-    exceptions,
-    executors,
-    expand_topic_name,
-    guard_condition,
-    handle,
-    logging,
-    node,
-    parameter,
-    parameter_service,
-    publisher,
-    qos,
-    qos_event,
-    serialization,
-    service,
-    signals,
-    subscription,
-    task,
-    time,
-    time_source,
-    timer,
-    topic_endpoint_info,
-    topic_or_service_is_hidden,
-    type_hash,
-    type_support,
-    utilities,
-    validate_full_topic_name,
-    validate_namespace,
-    validate_node_name,
-    validate_parameter_name,
-    validate_topic_name,
-    wait_for_message,
-)
+from rclpy import utilities
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.impl import implementation_singleton  # noqa: F401 - libraries use it as an attribute
@@ -73,7 +31,6 @@ from rclpy.signals import (
     install_signal_handlers,
     uninstall_signal_handlers,
 )
-from rclpy.subscription import MessageInfo
 from rclpy.task import Future
 from rclpy.utilities import (
     get_default_context,
@@ -87,8 +44,49 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
+    from rclpy import (
+        action,
+        callback_groups,
+        client,
+        clock,
+        clock_type,
+        constants,
+        context,
+        duration,
+        exceptions,
+        executors,
+        expand_topic_name,
+        guard_condition,
+        handle,
+        logging,
+        node,
+        parameter,
+        parameter_service,
+        publisher,
+        qos,
+        qos_event,
+        serialization,
+        service,
+        signals,
+        subscription,
+        task,
+        time,
+        time_source,
+        timer,
+        topic_endpoint_info,
+        topic_or_service_is_hidden,
+        type_hash,
+        type_support,
+        validate_full_topic_name,
+        validate_namespace,
+        validate_node_name,
+        validate_parameter_name,
+        validate_topic_name,
+        wait_for_message,
+    )
     from rclpy.executors import Executor
     from rclpy.node import Node
+    from rclpy.subscription import MessageInfo
 
 __all__ = [
     "Context",
@@ -154,10 +152,14 @@ __all__ = [
 
 _global_executor: Executor | None = None
 
-# Programs import names from modules that merely import them upstream.
-_absent.install(
-    module for name, module in list(sys.modules.items()) if name.startswith("rclpy.") and module.__spec__ is not None
-)
+
+def __getattr__(name: str) -> Any:
+    """Import a module when a program uses it as an attribute, for example rclpy.time.Time."""
+    if name == "MessageInfo":
+        return import_module("rclpy.subscription").MessageInfo
+    if name in __all__:
+        return import_module(f"rclpy.{name}")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 class InitContextManager:
@@ -269,7 +271,9 @@ def create_node(
     rosout_qos_profile: QoSProfile | int = qos_profile_rosout_default,
 ) -> Node:
     """Create a node. The arguments are the same as for `rclpy.node.Node`."""
-    return node.Node(
+    from rclpy.node import Node  # noqa: PLC0415 - programs that only use messages or times need no nodes
+
+    return Node(
         node_name,
         context=context,
         cli_args=cli_args,

@@ -1,21 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Names of upstream's modules that are defined elsewhere here, or that coframe does not have on purpose.
 
-`install` gives them to the modules: a name that an upstream module merely imports is found in every module of rclpy,
-a name that upstream uses in annotations only is `typing.Any`, and a name that does not exist raises an error with the
-reason and what to use instead.
+Each module of rclpy that upstream has as well ends with `find` as its `__getattr__`. A name that an upstream module
+merely imports is found in every module, a name that upstream uses in annotations only is `typing.Any`, and a name that
+does not exist raises an error with the reason and what to use instead.
 """
 
 from __future__ import annotations
 
-from functools import partial
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-    from types import ModuleType
-
     from typing_extensions import Self
 
 # Where the names are defined that upstream's modules import from each other.
@@ -189,13 +185,6 @@ class Handle:
 def entity_of(handle: Any) -> Any:
     """Return the entity of a handle, and any other object itself."""
     return handle._entity if isinstance(handle, EntityHandle) else handle  # noqa: SLF001 - the class is above
-
-
-def install(modules: Iterable[ModuleType]) -> None:
-    """Give the names to modules."""
-    for module in modules:
-        if "__getattr__" not in vars(module):
-            module.__getattr__ = partial(find, module.__name__)  # type: ignore[method-assign]
 
 
 def find(module: str, name: str) -> Any:

@@ -18,17 +18,17 @@ if TYPE_CHECKING:
 
 _START: Final = "--ros-args"
 _END: Final = "--"
-_DEPRECATED_REMAP: Final = re.compile(r"(?!\d)(?:\w+:)?[~/]?[\w{}]+(?:/[\w{}]+)*:=[~/]?[\w{}/]+")
+_DEPRECATED_REMAP: Final = r"(?!\d)(?:\w+:)?[~/]?[\w{}]+(?:/[\w{}]+)*:=[~/]?[\w{}/]+"
 _NAME: Final = r"(?!__)[A-Za-z_][A-Za-z0-9_]*"
 # Slashes are accepted anywhere in a part: the parameter of the QoS of a topic is qos_overrides./scan.publisher.depth.
 _PART: Final = rf"(?:/+(?:{_NAME}(?:/+{_NAME})*/*)?|{_NAME}(?:/+{_NAME})*/*)"
-_PARAMETER: Final = re.compile(rf"(?:(?P<node>{_NAME}):)?(?P<name>{_PART}(?:\.{_PART})*)")
+_PARAMETER: Final = rf"(?:(?P<node>{_NAME}):)?(?P<name>{_PART}(?:\.{_PART})*)"
 _SWITCHES: Final = ("stdout-logs", "rosout-logs", "external-lib-logs")
 
 
 # The names in a remapping rule, as rcl's lexer reads them.
 _REMAP_PART = r"[A-Za-z_](?:(?<!_)_|[A-Za-z0-9])*"
-_REMAP_NAME = re.compile(rf"(?:~/|/)?{_REMAP_PART}(?:/{_REMAP_PART})*", re.ASCII)
+_REMAP_NAME = rf"(?:~/|/)?{_REMAP_PART}(?:/{_REMAP_PART})*"
 
 Parameters = dict[str, dict[str, Any]]  # values by pattern of node names and name of the parameter
 
@@ -213,7 +213,7 @@ def _remap_of(rule: str) -> Remap:
         if match.startswith(scheme):
             kind, match = kind_of_scheme, match[len(scheme) :]
     for name, side in ((match, "before"), (replacement, "after")):
-        if not _REMAP_NAME.fullmatch(name):
+        if not re.fullmatch(_REMAP_NAME, name, re.ASCII):
             raise ValueError(
                 f"{name!r} {side} := is not a name: names consist of letters, digits and single '_', do not start with "
                 "a digit, and are separated by single '/'; only '/' or '~/' can be before the first one"
@@ -223,7 +223,7 @@ def _remap_of(rule: str) -> Remap:
 
 def _parse_deprecated_remap(word: str, result: Arguments) -> bool:
     """Add the rule of a word outside of `--ros-args`. Return False if the word is not a rule."""
-    if not _DEPRECATED_REMAP.fullmatch(word):
+    if not re.fullmatch(_DEPRECATED_REMAP, word):
         return False
     try:
         result.remaps.append(_remap_of(word))
@@ -252,7 +252,7 @@ def _parameter_of(rule: str) -> Parameters:
         raise ValueError("it does not have the form name:=value")
     if not text:
         raise ValueError("it has no value after :=. An empty string is written as x:=\"''\"")
-    found = _PARAMETER.fullmatch(left)
+    found = re.fullmatch(_PARAMETER, left)
     if found is None:
         raise ValueError(
             "the name of a parameter consists of letters, digits and '_', starts with a letter or one '_', and its "

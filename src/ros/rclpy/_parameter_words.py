@@ -6,8 +6,6 @@ from __future__ import annotations
 import math
 import re
 import sys
-from decimal import Context, Decimal
-from fractions import Fraction
 from typing import Final
 
 _TRUE_WORDS: Final = {"y", "Y", "yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"}
@@ -23,9 +21,6 @@ _HEXADECIMAL: Final = re.compile(
     rf"{_SPACE}[-+]?0[xX](?=\.?[0-9a-fA-F])([0-9a-fA-F]*)\.?([0-9a-fA-F]*)([pP][-+]?[0-9]+)?"
 )
 _NOT_FINITE: Final = re.compile(rf"{_SPACE}([-+]?)(inf|infinity|nan(?:\([0-9a-zA-Z_]*\))?)", re.IGNORECASE)
-# Smaller numbers are below the normal ones, also if they are rounded to 53 bits.
-_NORMAL: Final = Fraction(sys.float_info.min) - Fraction(1, 2**1076)
-_DECIMAL_NORMAL: Final = Context(prec=1200).divide(Decimal(_NORMAL.numerator), Decimal(_NORMAL.denominator))
 _MAX_DIGITS: Final = 30  # of an integer with 64 bits, in any form
 
 
@@ -74,17 +69,12 @@ def _is_tiny(value: float) -> bool:
 
 
 def _underflows(text: str, value: float) -> bool:
-    """Return whether a decimal number below the normal ones is not exact, which strtod reports as an error."""
-    if not value:
-        return any(digit in re.split("[eE]", text)[0] for digit in "123456789")
-    number = Decimal(text.strip()).copy_abs()
-    return number != Decimal(value).copy_abs() and number < _DECIMAL_NORMAL
+    from rclpy import _underflow  # noqa: PLC0415 - tiny numbers are rare, and its imports take milliseconds
+
+    return _underflow.of_decimal(text, value)
 
 
 def _hexadecimal_underflows(found: re.Match[str], value: float) -> bool:
-    whole, fraction, exponent = found.groups()
-    mantissa = (whole + fraction).strip("0")
-    if not value:
-        return bool(mantissa)
-    number = Fraction(int(whole + fraction, 16)) * Fraction(2) ** (int((exponent or "p0")[1:]) - 4 * len(fraction))
-    return number != abs(Fraction(value)) and number < _NORMAL
+    from rclpy import _underflow  # noqa: PLC0415
+
+    return _underflow.of_hexadecimal(found, value)

@@ -3,9 +3,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from coframe import _core
 from rclpy.qos import QoSPolicyKind
@@ -35,39 +34,42 @@ class QoSSubscriptionEventType(Enum):
     RCL_SUBSCRIPTION_MATCHED = 5
 
 
-@dataclass(frozen=True)
-class _Counts:
+class QoSOfferedDeadlineMissedInfo(NamedTuple):
+    """The publisher published later than its deadline allows."""
+
     total_count: int
     total_count_change: int
 
 
-@dataclass(frozen=True)
-class QoSOfferedDeadlineMissedInfo(_Counts):
-    """The publisher published later than its deadline allows."""
-
-
-@dataclass(frozen=True)
-class QoSRequestedDeadlineMissedInfo(_Counts):
+class QoSRequestedDeadlineMissedInfo(NamedTuple):
     """A message came later than the deadline of the subscription allows."""
 
+    total_count: int
+    total_count_change: int
 
-@dataclass(frozen=True)
-class QoSLivelinessLostInfo(_Counts):
+
+class QoSLivelinessLostInfo(NamedTuple):
     """The publisher did not assert its liveliness in time."""
 
+    total_count: int
+    total_count_change: int
 
-@dataclass(frozen=True)
-class QoSMessageLostInfo(_Counts):
+
+class QoSMessageLostInfo(NamedTuple):
     """Messages were lost."""
 
+    total_count: int
+    total_count_change: int
 
-@dataclass(frozen=True)
-class IncompatibleTypeInfo(_Counts):
+
+class IncompatibleTypeInfo(NamedTuple):
     """An endpoint on the same topic has another message type."""
 
+    total_count: int
+    total_count_change: int
 
-@dataclass(frozen=True)
-class QoSLivelinessChangedInfo:
+
+class QoSLivelinessChangedInfo(NamedTuple):
     """The number of publishers that are alive has changed."""
 
     alive_count: int
@@ -76,8 +78,7 @@ class QoSLivelinessChangedInfo:
     not_alive_count_change: int
 
 
-@dataclass(frozen=True)
-class QoSMatchedInfo:
+class QoSMatchedInfo(NamedTuple):
     """The number of matched endpoints has changed."""
 
     total_count: int
@@ -89,8 +90,7 @@ class QoSMatchedInfo:
 QoSPublisherMatchedInfo = QoSSubscriptionMatchedInfo = QoSMatchedInfo
 
 
-@dataclass(frozen=True)
-class QoSOfferedIncompatibleQoSInfo:
+class QoSOfferedIncompatibleQoSInfo(NamedTuple):
     """A subscription requests more than the publisher offers."""
 
     total_count: int
@@ -98,8 +98,7 @@ class QoSOfferedIncompatibleQoSInfo:
     last_policy_kind: QoSPolicyKind
 
 
-@dataclass(frozen=True)
-class QoSRequestedIncompatibleQoSInfo:
+class QoSRequestedIncompatibleQoSInfo(NamedTuple):
     """A publisher offers less than the subscription requests."""
 
     total_count: int

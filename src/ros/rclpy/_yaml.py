@@ -17,16 +17,16 @@ if TYPE_CHECKING:
 
 _STRING_TAG: Final = "tag:yaml.org,2002:str"
 _KEY: Final = "ros__parameters"
-_TOKEN: Final = re.compile(r"[A-Za-z_][A-Za-z0-9_]*|\*\*?")
+_WILDCARD_OR_NAME: Final = r"[A-Za-z_][A-Za-z0-9_]*|\*\*?"
 _TYPE_NAMES: Final = {bool: "bool", int: "integer", float: "double", str: "string"}
 
-# Values without any special rule of YAML, which are read without PyYAML.
+# Values without any special rule of YAML, which are read without PyYAML. Python compiles the patterns when they are
+# used: it takes 7 ms, and most programs have no parameters on the command line.
 _PART: Final = r"[A-Za-z0-9_./+~$^;=\xa1-\u1fff-][A-Za-z0-9_./+~$^;=:@%#!*()<>\xa1-\u1fff-]*(?<!:)"
 _WORD: Final = rf"(?![-.]*(?: |$|,))(?!---|\.\.\.)(?!- )(?:{_PART}(?: +{_PART})*)"
 _QUOTED: Final = r"""'(?:[^'\n\r]|'')*'|"[^"\\\n\r]*\""""
 _ITEM: Final = rf"(?:{_QUOTED}|{_WORD})"
-_SIMPLE: Final = re.compile(rf" *(?:{_ITEM}|\[ *(?:{_ITEM} *(?:, *{_ITEM} *)*,? *)?\]) *")
-_ITEMS: Final = re.compile(_ITEM)
+_SIMPLE: Final = rf" *(?:{_ITEM}|\[ *(?:{_ITEM} *(?:, *{_ITEM} *)*,? *)?\]) *"
 
 
 def parse_value(text: str) -> Any:
@@ -35,8 +35,8 @@ def parse_value(text: str) -> Any:
     Raises:
         ValueError: The text is not valid YAML, is a mapping, or is a list with several types.
     """
-    if _SIMPLE.fullmatch(text):
-        words = [_simple_scalar(word) for word in _ITEMS.findall(text)]
+    if re.fullmatch(_SIMPLE, text):
+        words = [_simple_scalar(word) for word in re.findall(_ITEM, text)]
         return _of_one_type(words, 1) if text.lstrip(" ").startswith("[") else words[0]
     value = _Value()
     for event in _events(text):
@@ -257,7 +257,7 @@ class _FileReader:
 def _check_node_name(name: str, line: int) -> None:
     """Raise ValueError if a name is neither a node name nor a pattern with `*` and `**` as parts."""
     for part in name.removeprefix("/").split("/"):
-        if not _TOKEN.fullmatch(part):
+        if not re.fullmatch(_WILDCARD_OR_NAME, part):
             raise ValueError(
                 f"{name!r} above line {line} is not the name of a node. The parts between slashes must be '*', '**', "
                 "or letters, digits and '_' without a digit in front"

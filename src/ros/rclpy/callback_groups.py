@@ -5,7 +5,10 @@ from __future__ import annotations
 
 import threading
 import weakref
+from functools import partial
 from typing import Any
+
+from rclpy import _absent
 
 
 class CallbackGroup:
@@ -72,3 +75,6 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
         with self._lock:
             assert self.__active_entity is entity
             self.__active_entity = None
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -18,6 +18,7 @@ from coframe.time import MILLISECOND
 from coframe.wire import request_header
 from coframe.wire.request_header import RequestHeader
 from coframe.wire.service_endpoints import RejectedRequestError
+from rclpy import _absent
 from rclpy._absent import Handle
 from rclpy._destroyable import LoggingEntity, destroyed_error
 from rclpy.constants import S_TO_NS
@@ -320,3 +321,6 @@ def _deadline(timeout_sec: float | None) -> int | None:
 
 def _return_unchanged(response: Any) -> Any:
     return response
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -9,9 +9,11 @@ from __future__ import annotations
 import threading
 import time
 from enum import IntEnum
+from functools import partial
 from typing import TYPE_CHECKING
 
 from coframe._core import Event
+from rclpy import _absent
 from rclpy._absent import Handle
 from rclpy._clock_type import ClockType
 from rclpy.duration import Duration
@@ -306,3 +308,6 @@ class ROSClock(Clock):
 
     def _Coframe__now_ns(self) -> int:
         return self.__override_ns if self.__is_active else time.time_ns()
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

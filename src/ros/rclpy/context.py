@@ -11,10 +11,11 @@ import os
 import sys
 import threading
 import weakref
+from functools import partial
 from typing import TYPE_CHECKING
 
 from coframe._core import Event
-from rclpy import _arguments
+from rclpy import _absent, _arguments
 from rclpy import logging as ros_logging
 from rclpy._absent import Handle
 from rclpy._interruption import Interruption
@@ -231,3 +232,5 @@ def _shut_down_at_exit() -> None:
 
 
 atexit.register(_shut_down_at_exit)
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

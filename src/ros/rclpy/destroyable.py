@@ -3,7 +3,10 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Protocol
+
+from rclpy import _absent
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -22,3 +25,6 @@ class DestroyableType(Protocol):
 
     def destroy_when_not_in_use(self) -> None:
         """Destroy the object as soon as no context manager uses it."""
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -4,10 +4,12 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Final
 
 import builtin_interfaces.msg
 from coframe.distributions import since
+from rclpy import _absent
 from rclpy._numbers import require_number
 from rclpy.constants import S_TO_NS
 
@@ -118,3 +120,5 @@ class Duration:
 
 
 Infinite: Final = Duration(nanoseconds=INT64_LIMIT - 1)
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -10,6 +10,7 @@ import inspect
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from rclpy import _absent
 from rclpy._qos_event_types import (
     INCOMPATIBLE_TYPES,
     PUBLISHER_STATUSES,
@@ -290,3 +291,6 @@ class MismatchReporter:
             handler._Coframe__report_type_mismatch()
         if not handlers and self._callbacks.use_default_callbacks:
             self._log.warning(text)
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

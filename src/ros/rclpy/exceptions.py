@@ -24,9 +24,11 @@ The messages and arguments of the exceptions are upstream's. coframe adds `hint`
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from coframe.distributions import since
+from rclpy import _absent
 from rclpy._rclpy_pybind11 import (
     InvalidHandle,
     NodeNameNonExistentError,
@@ -246,3 +248,6 @@ class ROSInterruptException(Exception):
 
     def __init__(self, *args: object) -> None:
         super().__init__("rclpy.shutdown() has been called", *args)
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -14,8 +14,10 @@ import weakref
 from collections import deque
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
+from rclpy import _absent
 from rclpy._numbers import require_number
 from rclpy.constants import S_TO_NS
 from rclpy.exceptions import NotInitializedException, RCLError, ROSInterruptException
@@ -544,3 +546,6 @@ async def await_or_execute(callback: Callable[..., Any], *args: Any) -> Any:
     """Call a function, or await a coroutine function, and return the result."""
     result = callback(*args)
     return await result if inspect.isawaitable(result) else result
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

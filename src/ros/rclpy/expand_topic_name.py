@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import re
+from functools import partial
 
+from rclpy import _absent
 from rclpy.exceptions import NameValidationException
 from rclpy.validate_namespace import validate_namespace
 from rclpy.validate_node_name import validate_node_name
@@ -41,3 +43,6 @@ def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> s
     if unknown := re.search(r"{\w*}", name):
         raise ValueError(f"topic name '{topic_name}' is invalid: unknown substitution: {unknown[0]}")
     return name if name.startswith("/") else f"{prefix}/{name}"
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -6,8 +6,10 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from rclpy import _absent
 from rclpy._absent import Handle
 from rclpy._destroyable import Destroyable
 from rclpy.utilities import get_default_context
@@ -52,3 +54,6 @@ class GuardCondition(Destroyable):
             return None
         self.__is_triggered = False
         return self.callback
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 import os
+from functools import partial
 from pathlib import Path
 
+from rclpy import _absent
 from rclpy._arguments import LoggingArguments
 from rclpy.exceptions import _with_hint
 from rclpy.impl.console import console
@@ -102,3 +104,6 @@ def _configure(arguments: LoggingArguments) -> None:
     console.default_level = arguments.default_level or LoggingSeverity.INFO
     console.levels = dict(arguments.levels)
     console.writes_to_terminal = arguments.stdout
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

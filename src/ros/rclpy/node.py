@@ -8,11 +8,12 @@
 from __future__ import annotations
 
 import weakref
+from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from coframe.distributions import since
 from rcl_interfaces.msg import ParameterEvent
-from rclpy import _arguments, _composition, _node_endpoints
+from rclpy import _absent, _arguments, _composition, _node_endpoints
 from rclpy._absent import Handle
 from rclpy._arguments import Arguments
 from rclpy._destroyable import destroyed_error
@@ -431,3 +432,6 @@ def _names_for(node_name: str, namespace: str, arguments: Arguments) -> NameReso
     validate_node_name(node_name)
     validate_namespace(namespace)
     return NameResolver(node_name, namespace, arguments.remaps)
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -5,13 +5,14 @@ from __future__ import annotations
 
 import array
 from enum import Enum, IntEnum
+from functools import partial
 from typing import Any, Final, Generic, TypeVar
 
 import coframe.lazy_numpy as np
 from coframe._files.os_errors import reason
 from rcl_interfaces.msg import Parameter as ParameterMsg
 from rcl_interfaces.msg import ParameterType, ParameterValue
-from rclpy import _yaml
+from rclpy import _absent, _yaml
 from rclpy._numbers import to_python
 from rclpy.exceptions import _with_hint
 
@@ -261,3 +262,5 @@ __all__ = [
     "parameter_dict_from_yaml_file",
     "parameter_value_to_python",
 ]
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

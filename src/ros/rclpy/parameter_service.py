@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from rcl_interfaces.msg import SetParametersResult
@@ -17,6 +18,7 @@ from rcl_interfaces.srv import (
     SetParameters,
     SetParametersAtomically,
 )
+from rclpy import _absent
 from rclpy._parameter_limits import ParameterLimits
 from rclpy.exceptions import ParameterNotDeclaredException, ParameterUninitializedException
 from rclpy.parameter import Parameter
@@ -123,3 +125,6 @@ class ParameterService:
         """Return why parameters cannot be set, before the node looks for similar names, which takes long for many."""
         unknown = self._node._Coframe__undeclared([message.name for message in messages])
         return str(ParameterNotDeclaredException(unknown)) if unknown else self._limits.fault(messages)
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

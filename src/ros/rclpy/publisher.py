@@ -6,11 +6,13 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from coframe.errors import WireError
 from coframe.messages import codec
 from coframe.messages.native_codec import native_codec
+from rclpy import _absent
 from rclpy._absent import Handle
 from rclpy._destroyable import LoggingEntity, destroyed_error
 from rclpy.duration import Duration, Infinite
@@ -141,3 +143,6 @@ def _failure(error: WireError) -> RCLError:
     failure = RCLError(f"Failed to publish: {error}")
     failure.__cause__ = error
     return failure
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

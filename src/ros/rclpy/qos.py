@@ -5,8 +5,10 @@ from __future__ import annotations
 
 import warnings
 from enum import Enum, IntEnum
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
+from rclpy import _absent
 from rclpy._qos_compatibility import QoSCompatibility, qos_check_compatible
 from rclpy.duration import Duration, Infinite
 
@@ -387,3 +389,6 @@ def qos_policy_name_from_kind(policy_kind: QoSPolicyKind | int) -> str:
         ValueError: There is no such policy.
     """
     return QoSPolicyKind(policy_kind).name
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """QoS events under their names up to Humble. Newer distributions call this module `rclpy.event_handler`."""
 
+from functools import partial
+
+from rclpy import _absent
 from rclpy.event_handler import (
     EventHandler,
     PublisherEventCallbacks,
@@ -38,3 +41,5 @@ __all__ = [
     "get_logger",
     "qos_policy_name_from_kind",
 ]
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -5,9 +5,11 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Callable, Iterable
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
+from rclpy import _absent
 from rclpy.duration import Duration
 from rclpy.exceptions import ParameterAlreadyDeclaredException
 from rclpy.qos import QoSPolicyEnum, QoSPolicyKind, QoSProfile
@@ -108,3 +110,6 @@ def _as_policy(value: Any, default: Any) -> Any:
 
 def _values(default: Any) -> str:
     return f" (valid values: {', '.join(type(default).short_keys())})" if isinstance(default, QoSPolicyEnum) else ""
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 from coframe.errors import DecodeError
 from coframe.messages import codec
+from rclpy import _absent
 from rclpy.exceptions import RMWError
 from rclpy.type_support import check_for_type_support
 
@@ -33,3 +35,6 @@ def deserialize_message(serialized_message: bytes, message_type: type[Any]) -> A
         return codec.deserialize(serialized_message, message_type)
     except DecodeError as error:
         raise RMWError(f"failed to deserialize ROS message: {error}") from error
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from coframe.errors import DecodeError
 from coframe.messages import codec
+from rclpy import _absent
 from rclpy._absent import Handle
 from rclpy._destroyable import LoggingEntity
 from rclpy.service_introspection import REQUEST_RECEIVED, RESPONSE_SENT
@@ -133,3 +134,6 @@ class DeferredResponseService(Service):
 
     def _Coframe__answer(self, header: RequestHeader, request: Any) -> Any:
         return self.callback(request, header)
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -5,8 +5,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import IntEnum
+from functools import partial
 from typing import TYPE_CHECKING
 
+from rclpy import _absent
 from rclpy.topic_endpoint_info import qos_lines
 from rclpy.type_hash import TypeHash
 
@@ -74,3 +76,6 @@ class ServiceEndpointInfo:
 def _as_item(lines: list[str]) -> list[str]:
     """Return lines as an item of a list."""
     return [("  - " if number == 0 else "    ") + line for number, line in enumerate(lines)]
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

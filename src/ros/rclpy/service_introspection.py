@@ -6,10 +6,12 @@
 from __future__ import annotations
 
 from enum import Enum
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from coframe.messages import codec
 from coframe.messages.registry import find
+from rclpy import _absent
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -88,3 +90,6 @@ class ServiceEvents:
         publisher, self._publisher = self._publisher, None
         if publisher is not None:
             publisher.close()
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -8,9 +8,11 @@ import sys
 import threading
 import weakref
 from enum import IntFlag
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from coframe._process.signal_handlers import SignalHandlers
+from rclpy import _absent
 from rclpy.context import _shut_down_by_signal
 from rclpy.exceptions import ROSInterruptException
 from rclpy.executors import ExternalShutdownException
@@ -138,3 +140,6 @@ def _thread_excepthook(args: threading.ExceptHookArgs) -> None:
 def _unraisable_hook(args: sys.UnraisableHookArgs) -> None:
     if not (_was_signalled and isinstance(args.exc_value, _EXPECTED)) and _previous_hooks is not None:
         _previous_hooks[2](args)
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

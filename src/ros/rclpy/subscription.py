@@ -15,8 +15,8 @@ from coframe.messages.native_codec import native_codec
 from coframe.messages.other_forms import has_other_form, other_form
 from coframe.messages.type_hash import type_hash
 from coframe.wire.tf_reader import TfReader
+from rclpy import _absent
 from rclpy._absent import Handle
-from rclpy._content_filter import ContentFilter
 from rclpy._destroyable import LoggingEntity
 from rclpy.exceptions import RCLError
 from rclpy.logging import get_logger
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
     from coframe.wire.endpoints import Sample
     from coframe.wire.endpoints import Subscription as WireSubscription
+    from rclpy._content_filter import ContentFilter
     from rclpy.callback_groups import CallbackGroup
     from rclpy.event_handler import EventHandler
     from rclpy.qos import QoSProfile
@@ -106,6 +107,8 @@ class Subscription(LoggingEntity):
         Raises:
             RCLError: The condition is invalid.
         """
+        from rclpy._content_filter import ContentFilter  # noqa: PLC0415 - few programs filter messages
+
         new = ContentFilter(self.msg_type, filter_expression, expression_parameters)
         self.__filter = new if filter_expression else None
 
@@ -204,3 +207,6 @@ def _accepts_message_info(callback: Callable[..., Any]) -> bool:
         "Subscription.__init__(): callback should be either be callable with one argument (to get only the message) "
         "or two (to get message and message info)"
     )
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

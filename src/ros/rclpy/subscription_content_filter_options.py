@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Options of content filters, which let only some messages on a topic through to the callback of a subscription."""
 
+from functools import partial
 from typing import NamedTuple
+
+from rclpy import _absent
 
 __all__ = ["ContentFilterOptions"]
 
@@ -17,3 +20,6 @@ class ContentFilterOptions(NamedTuple):
 
     filter_expression: str
     expression_parameters: list[str]
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

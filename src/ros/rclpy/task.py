@@ -13,9 +13,10 @@ import traceback
 import weakref
 from contextlib import suppress
 from enum import Enum
+from functools import partial
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from rclpy import _asyncio
+from rclpy import _absent, _asyncio
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine, Generator
@@ -268,3 +269,6 @@ def _call_safely(callback: Callable[[Future[T]], object], future: Future[T]) -> 
         callback(future)
     except Exception:  # noqa: BLE001
         traceback.print_exc()
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

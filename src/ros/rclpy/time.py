@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, overload
 
 import builtin_interfaces.msg
 from coframe.distributions import since
+from rclpy import _absent
 from rclpy._clock_type import ClockType
 from rclpy._numbers import require_number
 from rclpy.constants import S_TO_NS
@@ -154,3 +156,6 @@ class Time:
         if not isinstance(msg, builtin_interfaces.msg.Time):
             raise TypeError("Must pass a builtin_interfaces.msg.Time object")
         return cls(seconds=msg.sec, nanoseconds=msg.nanosec, clock_type=clock_type)
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -13,6 +13,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from coframe._core import Event
+from rclpy import _absent
 from rclpy._absent import Handle
 from rclpy._clock_type import ClockType
 from rclpy._destroyable import Destroyable, destroyed_error
@@ -299,3 +300,6 @@ class Rate(Destroyable):
         # A node that is destroyed has destroyed the timer before.
         self.__was_destroyed_alone |= not self.__timer._Coframe__destruction.is_set
         self.__timer.destroy()
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

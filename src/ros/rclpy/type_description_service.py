@@ -6,15 +6,16 @@
 
 from __future__ import annotations
 
-import json
 import re
 from contextlib import suppress
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from coframe.messages.definition_texts import source_of
 from coframe.messages.registry import find
 from coframe.messages.type_hash import description_text, type_hash
 from rcl_interfaces.msg import ParameterDescriptor, ParameterType
+from rclpy import _absent
 from rclpy.parameter import Parameter
 from rclpy.qos import qos_profile_services_default
 
@@ -75,6 +76,8 @@ class TypeDescriptionService:
         if interface is None:
             response.failure_reason = _UNUSED
             return response
+        import json  # noqa: PLC0415 - few programs ask for a description
+
         description = json.loads(description_text(interface))
         response.type_description.type_description = _individual(description["type_description"])
         response.type_description.referenced_type_descriptions = [
@@ -108,3 +111,6 @@ def _source(name: str) -> Any:
     encoding, text = source_of(name)
     source_class = find("type_description_interfaces/msg/TypeSource")
     return source_class(type_name=name, encoding=encoding, raw_file_contents=text)
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -4,6 +4,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
+
+from rclpy import _absent
 
 __all__ = ["TypeHash"]
 
@@ -38,3 +41,6 @@ class TypeHash:
 
     def __str__(self) -> str:
         return "INVALID" if self.version < 0 else f"RIHS{self.version:02x}_{self.value.hex()}"
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

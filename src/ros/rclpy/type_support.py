@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any, Generic, TypeVar
 
+from rclpy import _absent
 from rclpy.exceptions import NoTypeSupportImportedException, _with_hint
 
 __all__ = [
@@ -149,3 +151,6 @@ def check_is_valid_action_type(action_type: Any) -> None:
             f"The action type provided is not valid ({action_type}), this might be a message or service"
         )
         raise _with_hint(error, "Expected an action class such as tf2_msgs.action.LookupTransform.")
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

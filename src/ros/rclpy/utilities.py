@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import sys
 import threading
+from functools import partial
 
-from rclpy import _arguments
+from rclpy import _absent, _arguments
 from rclpy.constants import S_TO_NS
 from rclpy.context import Context
 
@@ -74,3 +75,6 @@ def get_rmw_implementation_identifier() -> str:
 def get_available_rmw_implementations() -> set[str]:
     """Return the names of the available RMW implementations."""
     return {get_rmw_implementation_identifier()}
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

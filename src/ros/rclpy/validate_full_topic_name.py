@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import re
+from functools import partial
 
+from rclpy import _absent
 from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
 
 
@@ -36,3 +38,6 @@ def _fault(name: str) -> tuple[str, int] | None:
         fault = "contain repeated '/'" if is_repeated else "have a token that starts with a number"
         return f"topic name must not {fault}", bad.end()
     return None
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -2,7 +2,9 @@
 """Validation of namespaces."""
 
 import re
+from functools import partial
 
+from rclpy import _absent
 from rclpy.exceptions import InvalidNamespaceException
 
 
@@ -28,3 +30,6 @@ def validate_namespace(namespace: str) -> bool:
         text = "namespace must not have a token that starts with a number"
         raise InvalidNamespaceException(namespace, text, bad.start() + 1)
     return True
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

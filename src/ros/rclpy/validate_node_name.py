@@ -2,8 +2,10 @@
 """Validation of node names."""
 
 import re
+from functools import partial
 from typing import Final
 
+from rclpy import _absent
 from rclpy.exceptions import InvalidNodeNameException, RCLError
 
 _MAX_LENGTH: Final = 255
@@ -32,3 +34,6 @@ def validate_node_name(node_name: str) -> bool:
         text = f"node name length should not exceed '{_MAX_LENGTH}'"
         raise InvalidNodeNameException(node_name, text, _MAX_LENGTH - 1)
     return True
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

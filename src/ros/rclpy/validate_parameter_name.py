@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Validation of parameter names."""
 
+from functools import partial
+
+from rclpy import _absent
 from rclpy.exceptions import InvalidParameterException
 
 
@@ -13,3 +16,6 @@ def validate_parameter_name(name: str) -> bool:
     if not name:
         raise InvalidParameterException(name)
     return True
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

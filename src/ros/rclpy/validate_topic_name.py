@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import re
 import string
+from functools import partial
 
+from rclpy import _absent
 from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException, NameValidationException, RCLError
 
 TOPIC_SEPARATOR_STRING = "/"
@@ -76,3 +78,5 @@ def _fault_of_tokens(name: str) -> tuple[str, int] | None:
 
 
 __all__ = ["TOPIC_SEPARATOR_STRING", "NameValidationException", "validate_topic_name"]
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -7,10 +7,12 @@
 from __future__ import annotations
 
 import time
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from coframe._core import Event
 from coframe.messages import codec
+from rclpy import _absent
 from rclpy._numbers import require_number
 from rclpy.constants import S_TO_NS
 from rclpy.qos import QoSProfile, as_qos_profile
@@ -57,3 +59,6 @@ def wait_for_message(
     finally:
         subscription.close()
     return False, None
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -9,6 +9,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from rclpy import _absent
 from rclpy._absent import entity_of
 from rclpy._destroyable import Destroyable
 
@@ -184,3 +185,6 @@ class Waitable(Destroyable):
     def _Coframe__take(self) -> Callable[[], Any] | None:
         self.__wait_set.reset_triggers()
         return partial(self.execute, self.take_data())
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """Velocity of a frame relative to another, computed as tf2's finite difference of two lookups."""
 
+from __future__ import annotations
+
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
+import coframe.lazy_numpy as np
 from coframe.buffer.buffer import Buffer
 from coframe.errors import TransformException
 from coframe.time import SECOND
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 Vector = tuple[float, float, float]
 

@@ -16,6 +16,7 @@ from action_msgs.srv import CancelGoal
 from coframe._output.warn_once import WarnOnce
 from coframe.errors import DecodeError
 from coframe.messages import codec
+from rclpy import _absent
 from rclpy._destroyable import Destroyable
 from rclpy.action._names import CANCEL_GOAL, FEEDBACK, FEEDBACK_QOS, GET_RESULT, SEND_GOAL, STATUS, resolve_action_name
 from rclpy.callback_groups import ReentrantCallbackGroup
@@ -322,3 +323,6 @@ def _check_is_goal_handle(goal_handle: Any) -> None:
 
 def _key(goal_id: UUID) -> bytes:
     return bytes(goal_id.uuid)
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

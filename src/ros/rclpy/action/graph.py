@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
+from rclpy import _absent
 from rclpy.action._names import FEEDBACK
 
 if TYPE_CHECKING:
@@ -55,3 +57,6 @@ def _actions(topics: NamesAndTypes) -> NamesAndTypes:
         for topic, types in topics
         if topic.endswith(FEEDBACK)
     ]
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

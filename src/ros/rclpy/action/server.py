@@ -13,11 +13,13 @@ import time
 import traceback
 from collections import deque
 from enum import Enum
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from action_msgs.msg import GoalInfo, GoalStatus
 from action_msgs.srv import CancelGoal
 from coframe._output.warn_once import WarnOnce
+from rclpy import _absent
 from rclpy._destroyable import Destroyable
 from rclpy.action._goal_handle import GoalEvent, ServerGoalHandle, can_be_cancelled
 from rclpy.action._names import (
@@ -434,3 +436,6 @@ def _nanoseconds(goal_info: GoalInfo) -> int:
 
 def _key(goal_id: UUID) -> bytes:
     return bytes(goal_id.uuid)
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

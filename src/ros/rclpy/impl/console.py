@@ -7,9 +7,11 @@ import os
 import sys
 import time
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Final, TextIO
 
 from coframe.time import MILLISECOND, SECOND
+from rclpy import _absent
 from rclpy.impl.logging_severity import LoggingSeverity
 
 if TYPE_CHECKING:
@@ -119,3 +121,5 @@ def format_record(record: Record, template: str) -> str:
 
 
 console: Final = Console()
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -4,6 +4,9 @@
 from __future__ import annotations
 
 from enum import IntEnum
+from functools import partial
+
+from rclpy import _absent
 
 
 class LoggingSeverity(IntEnum):
@@ -15,3 +18,6 @@ class LoggingSeverity(IntEnum):
     WARN = 30
     ERROR = 40
     FATAL = 50
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

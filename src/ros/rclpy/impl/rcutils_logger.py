@@ -9,8 +9,10 @@ from __future__ import annotations
 import sys
 import time
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
+from rclpy import _absent
 from rclpy._numbers import require_number
 from rclpy.constants import S_TO_NS
 from rclpy.exceptions import _with_hint
@@ -175,3 +177,6 @@ def _caller() -> FrameType:
     while frame.f_code.co_filename == __file__ and frame.f_back is not None:
         frame = frame.f_back
     return frame
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

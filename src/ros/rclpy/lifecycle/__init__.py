@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Lifecycle nodes, whose states other programs control (`ros2 lifecycle set /node configure`)."""
 
+from functools import partial
+
+from rclpy import _absent
 from rclpy.lifecycle.managed_entity import ManagedEntity, SimpleManagedEntity
 from rclpy.lifecycle.node import LifecycleNode, LifecycleNodeMixin, LifecycleState
 from rclpy.lifecycle.publisher import LifecyclePublisher
@@ -25,3 +28,5 @@ __all__ = [
     "State",
     "TransitionCallbackReturn",
 ]
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

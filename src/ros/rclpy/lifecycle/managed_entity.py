@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
-from functools import wraps
+from functools import partial, wraps
 from typing import TYPE_CHECKING, Any
 
+from rclpy import _absent
 from rclpy.lifecycle.state_machine import TransitionCallbackReturn
 
 if TYPE_CHECKING:
@@ -92,3 +93,6 @@ class SimpleManagedEntity(ManagedEntity):
             return run
 
         return decorate if wrapped is None else decorate(wrapped)
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports

@@ -5,9 +5,11 @@ from __future__ import annotations
 
 import threading
 from enum import Enum
+from functools import partial
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from lifecycle_msgs.msg import State, Transition
+from rclpy import _absent
 from rclpy.exceptions import RCLError, _with_hint
 
 if TYPE_CHECKING:
@@ -184,3 +186,6 @@ class StateMachine:
             f"{transition!r} is not a transition from the state {self.current_state[1]!r}. "
             f"Available: {available or 'none'}.",
         )
+
+
+__getattr__ = partial(_absent.find, __name__)  # names that upstream's module imports
