@@ -8,7 +8,6 @@ colors: the tables are readable on light and on dark backgrounds.
 from __future__ import annotations
 
 import base64
-import html
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
@@ -109,4 +108,6 @@ def _omitted_rows_text(total: int, noun: str) -> str:
 def _escape(text: str) -> str:
     """Return text escaped for HTML and shortened, without control characters and bidirectional marks."""
     short = text if len(text) <= _MAX_TEXT_LENGTH else f"{text[:_MAX_TEXT_LENGTH]}..."
+    import html  # noqa: PLC0415 - only notebooks need it
+
     return html.escape("".join(c if c.isprintable() else ascii(c)[1:-1] for c in short))

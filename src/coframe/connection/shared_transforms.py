@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import atexit
 import contextlib
-import hashlib
 import logging
 import os
 import threading
@@ -52,6 +51,8 @@ def open_segment(config: ListenerConfig, generation: int = 0) -> _core.Segment:
     Raises:
         SegmentError: This system cannot share transforms.
     """
+    import hashlib  # noqa: PLC0415 - it loads OpenSSL, which takes 3 ms
+
     if not hasattr(os, "getuid"):
         raise _core.SegmentError("sharing transforms between processes is supported only on Linux")
     # The name differs for every configuration, network namespace and configuration of the middleware.

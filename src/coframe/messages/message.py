@@ -8,6 +8,7 @@ from operator import ne
 from typing import Any, ClassVar, Final
 
 import coframe.lazy_numpy as np
+from coframe._output import html_tables
 from coframe.errors import DecodeError
 from coframe.messages._fields import CHECKS_FIELDS, Check, attribute, constructor_conversion, number_of
 from coframe.messages._yaml_text import to_yaml
@@ -81,7 +82,6 @@ class Message(metaclass=MessageType):
         return _text(self, MAX_REPR_ITEMS)
 
     def _repr_html_(self) -> str:
-        from coframe._output import html_tables  # noqa: PLC0415 - only notebooks need it
         from coframe.sensors.message_pictures import picture_of  # noqa: PLC0415 - sensors are above this module
 
         lines = to_yaml(self, max_items=html_tables.MAX_ROWS).splitlines()

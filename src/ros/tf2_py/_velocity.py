@@ -7,12 +7,13 @@ import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import coframe.lazy_numpy as np
-from coframe.buffer.buffer import Buffer
 from coframe.errors import TransformException
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from coframe.buffer.buffer import Buffer
 
 Vector = tuple[float, float, float]
 

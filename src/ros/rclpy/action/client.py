@@ -6,7 +6,7 @@
 
 from __future__ import annotations
 
-import uuid
+import os
 from collections import deque
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final
@@ -204,7 +204,7 @@ class ActionClient(Destroyable):
         """
         if not isinstance(goal, self._action_type.Goal):
             raise TypeError(f"Expected {self._action_type.Goal}, got {type(goal)}")
-        goal_id = UUID(uuid=list(uuid.uuid4().bytes)) if goal_uuid is None else goal_uuid
+        goal_id = UUID(uuid=list(os.urandom(16))) if goal_uuid is None else goal_uuid
         if feedback_callback is not None:
             self._feedback_callbacks[_key(goal_id)] = feedback_callback
         request = self._action_type.Impl.SendGoalService.Request(goal_id=goal_id, goal=goal)
