@@ -199,7 +199,7 @@ class Module:
 
     def text(self) -> str:
         """Return the text of the module with the classes."""
-        self.names["message"].add("Message")
+        self.names["message"].update(("Message", "set_fields"))
         classes = [self._classes(message) for message in self._in_order()]
         classes += ["\n".join(lines) for lines in self.compounds.values()]
         header = NOTICE.format(package=self.package, kind=self.kind)
@@ -335,7 +335,7 @@ def _constructor(fields: list[Field]) -> list[str]:
         "        def __init__(self, **fields: Any) -> None:",
         *(f"            {line}" for line in default_assignments(fields, _short_name)),
         "            if fields:",
-        "                super().__init__(**fields)",
+        "                set_fields(self, fields)",
     ]
 
 

@@ -18,7 +18,7 @@ from coframe.messages._constructors import default_assignments
 from coframe.messages.compounds import member_messages
 from coframe.messages.definition import AbstractNestedType, AbstractType, NamespacedType
 from coframe.messages.limits import MAX_DEPTH
-from coframe.messages.message import Action, Message, MessageType, Service
+from coframe.messages.message import Action, Message, MessageType, Service, set_fields
 from coframe.messages.registry import classes, find
 
 if TYPE_CHECKING:
@@ -149,8 +149,8 @@ def class_name(type_: NamespacedType) -> str:
 
 
 def _constructor(ros_type: str, fields: list[Field], inner: dict[str, type]) -> Any:
-    names: dict[str, Any] = {"array": array, "np": np, "set_fields": Message.__init__, **inner}
-    lines = [*default_assignments(fields, class_name), "if fields:", "    set_fields(self, **fields)"]
+    names: dict[str, Any] = {"array": array, "np": np, "set_fields": set_fields, **inner}
+    lines = [*default_assignments(fields, class_name), "if fields:", "    set_fields(self, fields)"]
     source = "\n    ".join(["def __init__(self, **fields):", *lines])
     exec(compile(source, f"<constructor of {ros_type}>", "exec"), names)  # noqa: S102 - names are checked by the parser
     return names["__init__"]

@@ -31,6 +31,7 @@ from coframe.messages.definition import (
     BoundedString,
     BoundedWString,
     NamespacedType,
+    UnboundedString,
 )
 from coframe.messages.registry import class_of
 
@@ -38,6 +39,8 @@ CHECKS_FIELDS = __debug__ and os.environ.get("ROS_PYTHON_CHECK_FIELDS", "1") != 
 
 # Converts a value that a user assigns to the value that the message stores.
 Check = Callable[[Any], Any]
+# Stores a value in a field of a message.
+Setter = Callable[[Any, Any], None]
 
 
 class NumberFormat:
@@ -102,8 +105,33 @@ def attribute(name: str, type_: AbstractType, slot: Any) -> Any:
             checked = check(converted)
         store(message, checked)
 
-    setter = assign if convert is None else convert_and_assign
+    setter = _fast_setter(type_, store, assign if convert is None else convert_and_assign)
     return property(attrgetter(f"_{name}"), setter, doc=f"Message field '{name}'.")
+
+
+def _fast_setter(type_: AbstractType, store: Setter, slow: Setter) -> Setter:
+    """Return a setter that stores the usual values without further calls, and leaves all others to the slow one."""
+    if isinstance(type_, BasicType) and "int" in type_.typename:
+        low, high = _integer_bounds(type_)
+
+        def assign_integer(message: object, value: Any) -> None:
+            if type(value) is int and low <= value <= high:
+                store(message, value)
+            else:
+                slow(message, value)
+
+        return assign_integer
+    if type_ not in (BasicType("boolean"), BasicType("double"), UnboundedString()):
+        return slow
+    usual = _python_type(type_)
+
+    def assign(message: object, value: Any) -> None:
+        if type(value) is usual:
+            store(message, value)
+        else:
+            slow(message, value)
+
+    return assign
 
 
 def number_of(type_: AbstractType) -> NumberFormat | None:
@@ -113,11 +141,17 @@ def number_of(type_: AbstractType) -> NumberFormat | None:
     return None
 
 
-def constructor_conversion(type_: AbstractType) -> Check | None:
-    """Return the conversion of a constructor's argument: constructors accept numbers in any iterable."""
+def constructor_setter(type_: AbstractType, descriptor: Any) -> Setter:
+    """Return what stores a constructor's argument in a field: constructors accept numbers in any iterable."""
+    assign: Setter = descriptor.fset if isinstance(descriptor, property) else descriptor.__set__
     number = number_of(type_)
     if number is None:
-        return None
+        return assign
+    convert = _constructor_conversion(type_, number)
+    return lambda message, values: assign(message, convert(values))
+
+
+def _constructor_conversion(type_: AbstractType, number: NumberFormat) -> Check:
     if not isinstance(type_, Array):
         return lambda values: _number_sequence(number, values)
     shape = (type_.size,)

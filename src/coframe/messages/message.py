@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from itertools import islice
 from operator import ne
 from typing import Any, ClassVar, Final
@@ -10,7 +11,7 @@ from typing import Any, ClassVar, Final
 import coframe.lazy_numpy as np
 from coframe._output import html_tables
 from coframe.errors import DecodeError
-from coframe.messages._fields import CHECKS_FIELDS, Check, attribute, constructor_conversion, number_of
+from coframe.messages._fields import CHECKS_FIELDS, Setter, attribute, constructor_setter, number_of
 from coframe.messages._yaml_text import to_yaml
 from coframe.messages.definition import AbstractNestedType, AbstractSequence, AbstractType, describe
 from coframe.messages.registry import classes, find
@@ -38,30 +39,25 @@ class Message(metaclass=MessageType):
     SLOT_TYPES: ClassVar[tuple[AbstractType, ...]]
     __recorded__: ClassVar[bool] = False  # whether a definition in a recording describes it; its name does not find it
     _fields_and_field_types: ClassVar[dict[str, str]]
-    __conversions: ClassVar[dict[str, Check]]
+    __setters: ClassVar[dict[str, Setter]]  # what the constructor calls with the message and the value of a field
 
     def __init_subclass__(cls) -> None:
         if "SLOT_TYPES" not in cls.__dict__:
-            return  # A subclass that a user has derived from a message class.
+            # A subclass that a user has derived from a message class can have properties of its own.
+            own = {name: partial(_set_attribute, name) for name in cls.__dict__ if name in cls.__setters}
+            cls.__setters = {**cls.__setters, **own}
+            return
         fields = {slot[1:]: type_ for slot, type_ in zip(cls.__slots__, cls.SLOT_TYPES, strict=True)}
         for name, type_ in fields.items():
             # Not setattr(): fields of IDL files may have names in capital letters.
             type.__setattr__(cls, name, attribute(name, type_, cls.__dict__[f"_{name}"]))
         cls._fields_and_field_types = {name: describe(type_) for name, type_ in fields.items()}
-        conversions = {name: constructor_conversion(type_) for name, type_ in fields.items()}
-        cls.__conversions = {name: convert for name, convert in conversions.items() if convert}
+        cls.__setters = {name: constructor_setter(type_, cls.__dict__[name]) for name, type_ in fields.items()}
         _register(cls)
 
     def __init__(self, **fields: Any) -> None:
-        """Set the fields that are passed to the constructor; generated constructors have set the defaults before."""
-        known = self._fields_and_field_types
-        assert not CHECKS_FIELDS or fields.keys() <= known.keys(), (
-            f"Invalid arguments passed to constructor: {', '.join(sorted(fields.keys() - known.keys()))}"
-        )
-        for name in known:
-            if name in fields:
-                convert = self.__conversions.get(name)
-                setattr(self, name, convert(fields[name]) if convert else fields[name])
+        """Set the fields that are passed to the constructor."""
+        set_fields(self, fields)
 
     @classmethod
     def get_fields_and_field_types(cls) -> dict[str, str]:
@@ -146,6 +142,22 @@ def _register(cls: type[Message | Service | Action]) -> None:
     cls.__module__ = ".".join(cls.ROS_TYPE.split("/")[:-1])
     if not (issubclass(cls, Message) and cls.__recorded__):
         classes[cls.ROS_TYPE] = cls
+
+
+def set_fields(message: Message, fields: dict[str, Any]) -> None:
+    """Set the fields that are passed to a constructor, which has set the defaults before."""
+    setters = message._Message__setters  # type: ignore[attr-defined]  # noqa: SLF001 - the class is above
+    for name, value in fields.items():
+        setter = setters.get(name)
+        if setter is not None:
+            setter(message, value)
+        elif CHECKS_FIELDS:
+            unknown = ", ".join(sorted(fields.keys() - setters.keys()))
+            raise AssertionError(f"Invalid arguments passed to constructor: {unknown}")
+
+
+def _set_attribute(name: str, message: object, value: Any) -> None:
+    setattr(message, name, value)
 
 
 def _differ(left: Any, right: Any) -> bool:

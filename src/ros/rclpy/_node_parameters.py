@@ -7,7 +7,7 @@ import threading
 import warnings
 from collections.abc import Callable, Sequence
 from collections.abc import Set as AbstractSet
-from typing import Any
+from typing import Any, Final
 
 from coframe._output.formatting import did_you_mean
 from rcl_interfaces.msg import (
@@ -40,6 +40,8 @@ from rclpy.validate_parameter_name import validate_parameter_name
 PreSetCallback = Callable[[list["Parameter[Any]"]], list["Parameter[Any]"]]
 SetCallback = Callable[[list["Parameter[Any]"]], SetParametersResult]
 PostSetCallback = Callable[[list["Parameter[Any]"]], None]
+
+_NOT_SET: Final = Parameter.Type.NOT_SET
 
 
 class _ParametersByName:
@@ -193,6 +195,9 @@ class NodeParameters:
             ParameterNotDeclaredException: The parameter is not declared, and undeclared parameters are not allowed.
             ParameterUninitializedException: The parameter was declared with only a type and has no value yet.
         """
+        parameter = self.__parameters.get(name)
+        if parameter is not None and parameter.type_ is not _NOT_SET:
+            return parameter  # The usual case, without the lock.
         with self.__lock:
             parameter = self.__parameters.get(name)
             if parameter is None:

@@ -139,7 +139,7 @@ class Time:
 
     def to_msg(self) -> builtin_interfaces.msg.Time:
         """Return the time as a `builtin_interfaces/Time`."""
-        seconds, nanoseconds = self.seconds_nanoseconds()
+        seconds, nanoseconds = divmod(self._nanoseconds, S_TO_NS)
         try:
             return builtin_interfaces.msg.Time(sec=seconds, nanosec=nanoseconds)
         except AssertionError as error:

@@ -115,7 +115,8 @@ class RcutilsLogger:
             TypeError: The message is not a string, or an option is unknown or incomplete.
             ValueError: The call site changed its severity, name or filters.
         """
-        severity = LoggingSeverity(severity)
+        if type(severity) is not LoggingSeverity:
+            severity = LoggingSeverity(severity)
         name = name or self.name
         if console.effective_level(name) > severity:
             return False

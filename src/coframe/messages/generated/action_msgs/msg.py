@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final
 
 from coframe.messages.definition import BasicType, NamespacedType, UnboundedSequence
-from coframe.messages.message import Message
+from coframe.messages.message import Message, set_fields
 from coframe.messages.generated.builtin_interfaces.msg import Time
 from coframe.messages.generated.unique_identifier_msgs.msg import UUID
 
@@ -31,7 +31,7 @@ class GoalInfo(Message):
             self._goal_id = fields.get("goal_id") or UUID()
             self._stamp = fields.get("stamp") or Time()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class GoalStatus(Message):
@@ -61,7 +61,7 @@ class GoalStatus(Message):
             self._goal_info = fields.get("goal_info") or GoalInfo()
             self._status = 0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class GoalStatusArray(Message):
@@ -81,4 +81,4 @@ class GoalStatusArray(Message):
         def __init__(self, **fields: Any) -> None:
             self._status_list = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)

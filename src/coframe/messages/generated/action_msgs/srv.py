@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from coframe.messages.definition import BasicType, NamespacedType, UnboundedSequence
-from coframe.messages.message import Message, Service
+from coframe.messages.message import Message, Service, set_fields
 from coframe.messages.generated.action_msgs.msg import GoalInfo
 
 
@@ -27,7 +27,7 @@ class CancelGoal_Request(Message):
         def __init__(self, **fields: Any) -> None:
             self._goal_info = fields.get("goal_info") or GoalInfo()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class CancelGoal_Response(Message):
@@ -54,7 +54,7 @@ class CancelGoal_Response(Message):
             self._return_code = 0
             self._goals_canceling = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class CancelGoal(Service):

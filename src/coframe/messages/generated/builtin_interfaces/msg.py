@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final
 
 from coframe.messages.definition import BasicType
-from coframe.messages.message import Message
+from coframe.messages.message import Message, set_fields
 
 
 class Duration(Message):
@@ -29,7 +29,7 @@ class Duration(Message):
             self._sec = 0
             self._nanosec = 0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Time(Message):
@@ -52,4 +52,4 @@ class Time(Message):
             self._sec = 0
             self._nanosec = 0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import coframe.lazy_numpy as np
 from coframe.messages.definition import Array, BasicType, NamespacedType, UnboundedSequence, UnboundedString
-from coframe.messages.message import Message
+from coframe.messages.message import Message, set_fields
 from coframe.messages.generated.std_msgs.msg import Header
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ class Vector3(Message):
             self._y = 0.0
             self._z = 0.0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Accel(Message):
@@ -62,7 +62,7 @@ class Accel(Message):
             self._linear = fields.get("linear") or Vector3()
             self._angular = fields.get("angular") or Vector3()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class AccelStamped(Message):
@@ -85,7 +85,7 @@ class AccelStamped(Message):
             self._header = fields.get("header") or Header()
             self._accel = fields.get("accel") or Accel()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class AccelWithCovariance(Message):
@@ -108,7 +108,7 @@ class AccelWithCovariance(Message):
             self._accel = fields.get("accel") or Accel()
             self._covariance = np.zeros(36, np.float64)
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class AccelWithCovarianceStamped(Message):
@@ -131,7 +131,7 @@ class AccelWithCovarianceStamped(Message):
             self._header = fields.get("header") or Header()
             self._accel = fields.get("accel") or AccelWithCovariance()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Inertia(Message):
@@ -172,7 +172,7 @@ class Inertia(Message):
             self._iyz = 0.0
             self._izz = 0.0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class InertiaStamped(Message):
@@ -195,7 +195,7 @@ class InertiaStamped(Message):
             self._header = fields.get("header") or Header()
             self._inertia = fields.get("inertia") or Inertia()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Point(Message):
@@ -221,7 +221,7 @@ class Point(Message):
             self._y = 0.0
             self._z = 0.0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Point32(Message):
@@ -247,7 +247,7 @@ class Point32(Message):
             self._y = 0.0
             self._z = 0.0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class PointStamped(Message):
@@ -270,7 +270,7 @@ class PointStamped(Message):
             self._header = fields.get("header") or Header()
             self._point = fields.get("point") or Point()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Polygon(Message):
@@ -290,7 +290,7 @@ class Polygon(Message):
         def __init__(self, **fields: Any) -> None:
             self._points = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class PolygonInstance(Message):
@@ -313,7 +313,7 @@ class PolygonInstance(Message):
             self._polygon = fields.get("polygon") or Polygon()
             self._id = 0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class PolygonInstanceStamped(Message):
@@ -336,7 +336,7 @@ class PolygonInstanceStamped(Message):
             self._header = fields.get("header") or Header()
             self._polygon = fields.get("polygon") or PolygonInstance()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class PolygonStamped(Message):
@@ -359,7 +359,7 @@ class PolygonStamped(Message):
             self._header = fields.get("header") or Header()
             self._polygon = fields.get("polygon") or Polygon()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Quaternion(Message):
@@ -392,7 +392,7 @@ class Quaternion(Message):
             self._z = 0.0
             self._w = 1.0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Pose(Message):
@@ -415,7 +415,7 @@ class Pose(Message):
             self._position = fields.get("position") or Point()
             self._orientation = fields.get("orientation") or Quaternion()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Pose2D(Message):
@@ -441,7 +441,7 @@ class Pose2D(Message):
             self._y = 0.0
             self._theta = 0.0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class PoseArray(Message):
@@ -464,7 +464,7 @@ class PoseArray(Message):
             self._header = fields.get("header") or Header()
             self._poses = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class PoseStamped(Message):
@@ -487,7 +487,7 @@ class PoseStamped(Message):
             self._header = fields.get("header") or Header()
             self._pose = fields.get("pose") or Pose()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class PoseWithCovariance(Message):
@@ -510,7 +510,7 @@ class PoseWithCovariance(Message):
             self._pose = fields.get("pose") or Pose()
             self._covariance = np.zeros(36, np.float64)
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class PoseWithCovarianceStamped(Message):
@@ -533,7 +533,7 @@ class PoseWithCovarianceStamped(Message):
             self._header = fields.get("header") or Header()
             self._pose = fields.get("pose") or PoseWithCovariance()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class QuaternionStamped(Message):
@@ -556,7 +556,7 @@ class QuaternionStamped(Message):
             self._header = fields.get("header") or Header()
             self._quaternion = fields.get("quaternion") or Quaternion()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Transform(Message):
@@ -579,7 +579,7 @@ class Transform(Message):
             self._translation = fields.get("translation") or Vector3()
             self._rotation = fields.get("rotation") or Quaternion()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class TransformStamped(Message):
@@ -605,7 +605,7 @@ class TransformStamped(Message):
             self._child_frame_id = ""
             self._transform = fields.get("transform") or Transform()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Twist(Message):
@@ -628,7 +628,7 @@ class Twist(Message):
             self._linear = fields.get("linear") or Vector3()
             self._angular = fields.get("angular") or Vector3()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class TwistStamped(Message):
@@ -651,7 +651,7 @@ class TwistStamped(Message):
             self._header = fields.get("header") or Header()
             self._twist = fields.get("twist") or Twist()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class TwistWithCovariance(Message):
@@ -674,7 +674,7 @@ class TwistWithCovariance(Message):
             self._twist = fields.get("twist") or Twist()
             self._covariance = np.zeros(36, np.float64)
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class TwistWithCovarianceStamped(Message):
@@ -697,7 +697,7 @@ class TwistWithCovarianceStamped(Message):
             self._header = fields.get("header") or Header()
             self._twist = fields.get("twist") or TwistWithCovariance()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Vector3Stamped(Message):
@@ -720,7 +720,7 @@ class Vector3Stamped(Message):
             self._header = fields.get("header") or Header()
             self._vector = fields.get("vector") or Vector3()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class VelocityStamped(Message):
@@ -749,7 +749,7 @@ class VelocityStamped(Message):
             self._reference_frame_id = ""
             self._velocity = fields.get("velocity") or Twist()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Wrench(Message):
@@ -772,7 +772,7 @@ class Wrench(Message):
             self._force = fields.get("force") or Vector3()
             self._torque = fields.get("torque") or Vector3()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class WrenchStamped(Message):
@@ -795,4 +795,4 @@ class WrenchStamped(Message):
             self._header = fields.get("header") or Header()
             self._wrench = fields.get("wrench") or Wrench()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)

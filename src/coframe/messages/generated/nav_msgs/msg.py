@@ -7,7 +7,7 @@ from array import array
 from typing import TYPE_CHECKING, Any, Final
 
 from coframe.messages.definition import BasicType, NamespacedType, UnboundedSequence, UnboundedString
-from coframe.messages.message import Message
+from coframe.messages.message import Message, set_fields
 from coframe.messages.generated.builtin_interfaces.msg import Time
 from coframe.messages.generated.geometry_msgs.msg import Accel, Point, Pose, PoseStamped, PoseWithCovariance, Twist, TwistWithCovariance, Wrench
 from coframe.messages.generated.std_msgs.msg import Header
@@ -38,7 +38,7 @@ class Goals(Message):
             self._header = fields.get("header") or Header()
             self._goals = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class GridCells(Message):
@@ -67,7 +67,7 @@ class GridCells(Message):
             self._cell_height = 0.0
             self._cells = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class MapMetaData(Message):
@@ -99,7 +99,7 @@ class MapMetaData(Message):
             self._height = 0
             self._origin = fields.get("origin") or Pose()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class OccupancyGrid(Message):
@@ -125,7 +125,7 @@ class OccupancyGrid(Message):
             self._info = fields.get("info") or MapMetaData()
             self._data = array("b")
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Odometry(Message):
@@ -154,7 +154,7 @@ class Odometry(Message):
             self._pose = fields.get("pose") or PoseWithCovariance()
             self._twist = fields.get("twist") or TwistWithCovariance()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Path(Message):
@@ -177,7 +177,7 @@ class Path(Message):
             self._header = fields.get("header") or Header()
             self._poses = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class TrajectoryPoint(Message):
@@ -209,7 +209,7 @@ class TrajectoryPoint(Message):
             self._acceleration = fields.get("acceleration") or Accel()
             self._effort = fields.get("effort") or Wrench()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Trajectory(Message):
@@ -232,4 +232,4 @@ class Trajectory(Message):
             self._header = fields.get("header") or Header()
             self._points = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from coframe.messages.definition import BasicType, NamespacedType, UnboundedString
-from coframe.messages.message import Message, Service
+from coframe.messages.message import Message, Service, set_fields
 from coframe.messages.generated.geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
 from coframe.messages.generated.nav_msgs.msg import OccupancyGrid, Path
 
@@ -24,7 +24,7 @@ class GetMap_Request(Message):
 
         def __init__(self, **fields: Any) -> None:
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class GetMap_Response(Message):
@@ -44,7 +44,7 @@ class GetMap_Response(Message):
         def __init__(self, **fields: Any) -> None:
             self._map = fields.get("map") or OccupancyGrid()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class GetPlan_Request(Message):
@@ -70,7 +70,7 @@ class GetPlan_Request(Message):
             self._goal = fields.get("goal") or PoseStamped()
             self._tolerance = 0.0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class GetPlan_Response(Message):
@@ -90,7 +90,7 @@ class GetPlan_Response(Message):
         def __init__(self, **fields: Any) -> None:
             self._plan = fields.get("plan") or Path()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class LoadMap_Request(Message):
@@ -110,7 +110,7 @@ class LoadMap_Request(Message):
         def __init__(self, **fields: Any) -> None:
             self._map_url = ""
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class LoadMap_Response(Message):
@@ -138,7 +138,7 @@ class LoadMap_Response(Message):
             self._map = fields.get("map") or OccupancyGrid()
             self._result = 0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class SetMap_Request(Message):
@@ -161,7 +161,7 @@ class SetMap_Request(Message):
             self._map = fields.get("map") or OccupancyGrid()
             self._initial_pose = fields.get("initial_pose") or PoseWithCovarianceStamped()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class SetMap_Response(Message):
@@ -181,7 +181,7 @@ class SetMap_Response(Message):
         def __init__(self, **fields: Any) -> None:
             self._success = False
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class GetMap(Service):

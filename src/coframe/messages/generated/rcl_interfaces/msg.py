@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from coframe.distributions import follows
 from coframe.messages.definition import BasicType, BoundedSequence, NamespacedType, UnboundedSequence, UnboundedString
-from coframe.messages.message import Message
+from coframe.messages.message import Message, set_fields
 from coframe.messages.generated.builtin_interfaces.msg import Time
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ class FloatingPointRange(Message):
             self._to_value = 0.0
             self._step = 0.0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class IntegerRange(Message):
@@ -66,7 +66,7 @@ class IntegerRange(Message):
             self._to_value = 0
             self._step = 0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class ListParametersResult(Message):
@@ -89,7 +89,7 @@ class ListParametersResult(Message):
             self._names = []
             self._prefixes = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 if TYPE_CHECKING or not follows("humble"):
@@ -133,7 +133,7 @@ if TYPE_CHECKING or not follows("humble"):
                 self._function = ""
                 self._line = 0
                 if fields:
-                    super().__init__(**fields)
+                    set_fields(self, fields)
 
 else:
     class Log(Message):
@@ -176,7 +176,7 @@ else:
                 self._function = ""
                 self._line = 0
                 if fields:
-                    super().__init__(**fields)
+                    set_fields(self, fields)
 
 
 class LoggerLevel(Message):
@@ -205,7 +205,7 @@ class LoggerLevel(Message):
             self._name = ""
             self._level = 0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class ParameterValue(Message):
@@ -252,7 +252,7 @@ class ParameterValue(Message):
             self._double_array_value = array("d")
             self._string_array_value = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Parameter(Message):
@@ -275,7 +275,7 @@ class Parameter(Message):
             self._name = ""
             self._value = fields.get("value") or ParameterValue()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class ParameterDescriptor(Message):
@@ -318,7 +318,7 @@ class ParameterDescriptor(Message):
             self._floating_point_range = []
             self._integer_range = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class ParameterEvent(Message):
@@ -350,7 +350,7 @@ class ParameterEvent(Message):
             self._changed_parameters = []
             self._deleted_parameters = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class ParameterEventDescriptors(Message):
@@ -376,7 +376,7 @@ class ParameterEventDescriptors(Message):
             self._changed_parameters = []
             self._deleted_parameters = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class ParameterType(Message):
@@ -402,7 +402,7 @@ class ParameterType(Message):
 
         def __init__(self, **fields: Any) -> None:
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class SetLoggerLevelsResult(Message):
@@ -425,7 +425,7 @@ class SetLoggerLevelsResult(Message):
             self._successful = False
             self._reason = ""
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class SetParametersResult(Message):
@@ -448,4 +448,4 @@ class SetParametersResult(Message):
             self._successful = False
             self._reason = ""
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)

@@ -7,7 +7,7 @@ from array import array
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from coframe.messages.definition import BasicType, NamespacedType, UnboundedSequence, UnboundedString
-from coframe.messages.message import Message, Service
+from coframe.messages.message import Message, Service, set_fields
 from coframe.messages.generated.rcl_interfaces.msg import ListParametersResult, LoggerLevel, Parameter, ParameterDescriptor, ParameterValue, SetLoggerLevelsResult, SetParametersResult
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ class DescribeParameters_Request(Message):
         def __init__(self, **fields: Any) -> None:
             self._names = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class DescribeParameters_Response(Message):
@@ -53,7 +53,7 @@ class DescribeParameters_Response(Message):
         def __init__(self, **fields: Any) -> None:
             self._descriptors = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class GetLoggerLevels_Request(Message):
@@ -73,7 +73,7 @@ class GetLoggerLevels_Request(Message):
         def __init__(self, **fields: Any) -> None:
             self._names = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class GetLoggerLevels_Response(Message):
@@ -93,7 +93,7 @@ class GetLoggerLevels_Response(Message):
         def __init__(self, **fields: Any) -> None:
             self._levels = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class GetParameterTypes_Request(Message):
@@ -113,7 +113,7 @@ class GetParameterTypes_Request(Message):
         def __init__(self, **fields: Any) -> None:
             self._names = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class GetParameterTypes_Response(Message):
@@ -133,7 +133,7 @@ class GetParameterTypes_Response(Message):
         def __init__(self, **fields: Any) -> None:
             self._types = array("B")
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class GetParameters_Request(Message):
@@ -153,7 +153,7 @@ class GetParameters_Request(Message):
         def __init__(self, **fields: Any) -> None:
             self._names = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class GetParameters_Response(Message):
@@ -173,7 +173,7 @@ class GetParameters_Response(Message):
         def __init__(self, **fields: Any) -> None:
             self._values = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class ListParameters_Request(Message):
@@ -197,7 +197,7 @@ class ListParameters_Request(Message):
             self._prefixes = []
             self._depth = 0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class ListParameters_Response(Message):
@@ -217,7 +217,7 @@ class ListParameters_Response(Message):
         def __init__(self, **fields: Any) -> None:
             self._result = fields.get("result") or ListParametersResult()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class SetLoggerLevels_Request(Message):
@@ -237,7 +237,7 @@ class SetLoggerLevels_Request(Message):
         def __init__(self, **fields: Any) -> None:
             self._levels = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class SetLoggerLevels_Response(Message):
@@ -257,7 +257,7 @@ class SetLoggerLevels_Response(Message):
         def __init__(self, **fields: Any) -> None:
             self._results = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class SetParameters_Request(Message):
@@ -277,7 +277,7 @@ class SetParameters_Request(Message):
         def __init__(self, **fields: Any) -> None:
             self._parameters = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class SetParameters_Response(Message):
@@ -297,7 +297,7 @@ class SetParameters_Response(Message):
         def __init__(self, **fields: Any) -> None:
             self._results = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class SetParametersAtomically_Request(Message):
@@ -317,7 +317,7 @@ class SetParametersAtomically_Request(Message):
         def __init__(self, **fields: Any) -> None:
             self._parameters = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class SetParametersAtomically_Response(Message):
@@ -337,7 +337,7 @@ class SetParametersAtomically_Response(Message):
         def __init__(self, **fields: Any) -> None:
             self._result = fields.get("result") or SetParametersResult()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class DescribeParameters(Service):

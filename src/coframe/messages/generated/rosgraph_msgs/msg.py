@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import coframe.lazy_numpy as np
 from coframe.messages.definition import Array, BasicType, NamespacedType, UnboundedSequence, UnboundedString
-from coframe.messages.message import Message
+from coframe.messages.message import Message, set_fields
 from coframe.messages.generated.builtin_interfaces.msg import Duration, Time
 from coframe.messages.generated.rcl_interfaces.msg import ParameterDescriptor, ParameterValue
 
@@ -37,7 +37,7 @@ class TypeHash(Message):
             self._version = 0
             self._value = np.zeros(32, np.uint8)
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class InterfaceType(Message):
@@ -60,7 +60,7 @@ class InterfaceType(Message):
             self._name = ""
             self._hash = fields.get("hash") or TypeHash()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class QoSProfile(Message):
@@ -120,7 +120,7 @@ class QoSProfile(Message):
             self._liveliness = 0
             self._liveliness_lease_duration = fields.get("liveliness_lease_duration") or Duration()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Service(Message):
@@ -152,7 +152,7 @@ class Service(Message):
             self._response_type = fields.get("response_type") or InterfaceType()
             self._response_qos = fields.get("response_qos") or QoSProfile()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Topic(Message):
@@ -178,7 +178,7 @@ class Topic(Message):
             self._type = fields.get("type") or InterfaceType()
             self._qos = fields.get("qos") or QoSProfile()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Action(Message):
@@ -213,7 +213,7 @@ class Action(Message):
             self._feedback = fields.get("feedback") or Topic()
             self._status = fields.get("status") or Topic()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Clock(Message):
@@ -233,7 +233,7 @@ class Clock(Message):
         def __init__(self, **fields: Any) -> None:
             self._clock = fields.get("clock") or Time()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Node(Message):
@@ -277,7 +277,7 @@ class Node(Message):
             self._action_clients = []
             self._action_servers = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Graph(Message):
@@ -297,4 +297,4 @@ class Graph(Message):
         def __init__(self, **fields: Any) -> None:
             self._nodes = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 import coframe.lazy_numpy as np
 from coframe.distributions import follows
 from coframe.messages.definition import Array, BasicType, NamespacedType, UnboundedSequence, UnboundedString
-from coframe.messages.message import Message
+from coframe.messages.message import Message, set_fields
 from coframe.messages.generated.builtin_interfaces.msg import Time
 from coframe.messages.generated.geometry_msgs.msg import Point32, Quaternion, Transform, Twist, Vector3, Wrench
 from coframe.messages.generated.std_msgs.msg import Header
@@ -106,7 +106,7 @@ if TYPE_CHECKING or not follows("humble"):
                 self._location = ""
                 self._serial_number = ""
                 if fields:
-                    super().__init__(**fields)
+                    set_fields(self, fields)
 
 else:
     class BatteryState(Message):
@@ -192,7 +192,7 @@ else:
                 self._location = ""
                 self._serial_number = ""
                 if fields:
-                    super().__init__(**fields)
+                    set_fields(self, fields)
 
 
 class RegionOfInterest(Message):
@@ -224,7 +224,7 @@ class RegionOfInterest(Message):
             self._width = 0
             self._do_rectify = False
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class CameraInfo(Message):
@@ -274,7 +274,7 @@ class CameraInfo(Message):
             self._binning_y = 0
             self._roi = fields.get("roi") or RegionOfInterest()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class ChannelFloat32(Message):
@@ -297,7 +297,7 @@ class ChannelFloat32(Message):
             self._name = ""
             self._values = array("f")
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class CompressedImage(Message):
@@ -323,7 +323,7 @@ class CompressedImage(Message):
             self._format = ""
             self._data = array("B")
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class FluidPressure(Message):
@@ -349,7 +349,7 @@ class FluidPressure(Message):
             self._fluid_pressure = 0.0
             self._variance = 0.0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Illuminance(Message):
@@ -375,7 +375,7 @@ class Illuminance(Message):
             self._illuminance = 0.0
             self._variance = 0.0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Image(Message):
@@ -413,7 +413,7 @@ class Image(Message):
             self._step = 0
             self._data = array("B")
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Imu(Message):
@@ -451,7 +451,7 @@ class Imu(Message):
             self._linear_acceleration = fields.get("linear_acceleration") or Vector3()
             self._linear_acceleration_covariance = np.zeros(9, np.float64)
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class JointState(Message):
@@ -483,7 +483,7 @@ class JointState(Message):
             self._velocity = array("d")
             self._effort = array("d")
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Joy(Message):
@@ -509,7 +509,7 @@ class Joy(Message):
             self._axes = array("f")
             self._buttons = array("i")
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class JoyFeedback(Message):
@@ -538,7 +538,7 @@ class JoyFeedback(Message):
             self._id = 0
             self._intensity = 0.0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class JoyFeedbackArray(Message):
@@ -558,7 +558,7 @@ class JoyFeedbackArray(Message):
         def __init__(self, **fields: Any) -> None:
             self._array = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class LaserEcho(Message):
@@ -578,7 +578,7 @@ class LaserEcho(Message):
         def __init__(self, **fields: Any) -> None:
             self._echoes = array("f")
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class LaserScan(Message):
@@ -625,7 +625,7 @@ class LaserScan(Message):
             self._ranges = array("f")
             self._intensities = array("f")
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class MagneticField(Message):
@@ -651,7 +651,7 @@ class MagneticField(Message):
             self._magnetic_field = fields.get("magnetic_field") or Vector3()
             self._magnetic_field_covariance = np.zeros(9, np.float64)
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class MultiDOFJointState(Message):
@@ -683,7 +683,7 @@ class MultiDOFJointState(Message):
             self._twist = []
             self._wrench = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class MultiEchoLaserScan(Message):
@@ -730,7 +730,7 @@ class MultiEchoLaserScan(Message):
             self._ranges = []
             self._intensities = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 if TYPE_CHECKING or not follows("humble"):
@@ -765,7 +765,7 @@ if TYPE_CHECKING or not follows("humble"):
                 self._status = -2
                 self._service = 0
                 if fields:
-                    super().__init__(**fields)
+                    set_fields(self, fields)
 
 else:
     class NavSatStatus(Message):
@@ -796,7 +796,7 @@ else:
                 self._status = 0
                 self._service = 0
                 if fields:
-                    super().__init__(**fields)
+                    set_fields(self, fields)
 
 
 class NavSatFix(Message):
@@ -838,7 +838,7 @@ class NavSatFix(Message):
             self._position_covariance = np.zeros(9, np.float64)
             self._position_covariance_type = 0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class PointCloud(Message):
@@ -864,7 +864,7 @@ class PointCloud(Message):
             self._points = []
             self._channels = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 if TYPE_CHECKING or not follows("lyrical"):
@@ -902,7 +902,7 @@ if TYPE_CHECKING or not follows("lyrical"):
                 self._datatype = 0
                 self._count = 0
                 if fields:
-                    super().__init__(**fields)
+                    set_fields(self, fields)
 
 else:
     class PointField(Message):
@@ -942,7 +942,7 @@ else:
                 self._datatype = 0
                 self._count = 0
                 if fields:
-                    super().__init__(**fields)
+                    set_fields(self, fields)
 
 
 class PointCloud2(Message):
@@ -986,7 +986,7 @@ class PointCloud2(Message):
             self._data = array("B")
             self._is_dense = False
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 if TYPE_CHECKING or not follows("humble"):
@@ -1027,7 +1027,7 @@ if TYPE_CHECKING or not follows("humble"):
                 self._range = 0.0
                 self._variance = 0.0
                 if fields:
-                    super().__init__(**fields)
+                    set_fields(self, fields)
 
 else:
     class Range(Message):
@@ -1064,7 +1064,7 @@ else:
                 self._max_range = 0.0
                 self._range = 0.0
                 if fields:
-                    super().__init__(**fields)
+                    set_fields(self, fields)
 
 
 class RelativeHumidity(Message):
@@ -1090,7 +1090,7 @@ class RelativeHumidity(Message):
             self._relative_humidity = 0.0
             self._variance = 0.0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Temperature(Message):
@@ -1116,7 +1116,7 @@ class Temperature(Message):
             self._temperature = 0.0
             self._variance = 0.0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class TimeReference(Message):
@@ -1142,4 +1142,4 @@ class TimeReference(Message):
             self._time_ref = fields.get("time_ref") or Time()
             self._source = ""
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)

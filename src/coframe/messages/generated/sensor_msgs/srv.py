@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from coframe.messages.definition import BasicType, NamespacedType, UnboundedString
-from coframe.messages.message import Message, Service
+from coframe.messages.message import Message, Service, set_fields
 from coframe.messages.generated.sensor_msgs.msg import CameraInfo
 
 
@@ -27,7 +27,7 @@ class SetCameraInfo_Request(Message):
         def __init__(self, **fields: Any) -> None:
             self._camera_info = fields.get("camera_info") or CameraInfo()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class SetCameraInfo_Response(Message):
@@ -50,7 +50,7 @@ class SetCameraInfo_Response(Message):
             self._success = False
             self._status_message = ""
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class SetCameraInfo(Service):

@@ -7,7 +7,7 @@ from array import array
 from typing import TYPE_CHECKING, Any, Final
 
 from coframe.messages.definition import BasicType, NamespacedType, UnboundedSequence, UnboundedString
-from coframe.messages.message import Message
+from coframe.messages.message import Message, set_fields
 from coframe.messages.generated.builtin_interfaces.msg import Time
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ class Bool(Message):
         def __init__(self, **fields: Any) -> None:
             self._data = False
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Byte(Message):
@@ -53,7 +53,7 @@ class Byte(Message):
         def __init__(self, **fields: Any) -> None:
             self._data = b"\x00"
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class MultiArrayDimension(Message):
@@ -79,7 +79,7 @@ class MultiArrayDimension(Message):
             self._size = 0
             self._stride = 0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class MultiArrayLayout(Message):
@@ -102,7 +102,7 @@ class MultiArrayLayout(Message):
             self._dim = []
             self._data_offset = 0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class ByteMultiArray(Message):
@@ -125,7 +125,7 @@ class ByteMultiArray(Message):
             self._layout = fields.get("layout") or MultiArrayLayout()
             self._data = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Char(Message):
@@ -145,7 +145,7 @@ class Char(Message):
         def __init__(self, **fields: Any) -> None:
             self._data = 0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class ColorRGBA(Message):
@@ -174,7 +174,7 @@ class ColorRGBA(Message):
             self._b = 0.0
             self._a = 0.0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Empty(Message):
@@ -190,7 +190,7 @@ class Empty(Message):
 
         def __init__(self, **fields: Any) -> None:
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Float32(Message):
@@ -210,7 +210,7 @@ class Float32(Message):
         def __init__(self, **fields: Any) -> None:
             self._data = 0.0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Float32MultiArray(Message):
@@ -233,7 +233,7 @@ class Float32MultiArray(Message):
             self._layout = fields.get("layout") or MultiArrayLayout()
             self._data = array("f")
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Float64(Message):
@@ -253,7 +253,7 @@ class Float64(Message):
         def __init__(self, **fields: Any) -> None:
             self._data = 0.0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Float64MultiArray(Message):
@@ -276,7 +276,7 @@ class Float64MultiArray(Message):
             self._layout = fields.get("layout") or MultiArrayLayout()
             self._data = array("d")
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Header(Message):
@@ -299,7 +299,7 @@ class Header(Message):
             self._stamp = fields.get("stamp") or Time()
             self._frame_id = ""
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Int16(Message):
@@ -319,7 +319,7 @@ class Int16(Message):
         def __init__(self, **fields: Any) -> None:
             self._data = 0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Int16MultiArray(Message):
@@ -342,7 +342,7 @@ class Int16MultiArray(Message):
             self._layout = fields.get("layout") or MultiArrayLayout()
             self._data = array("h")
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Int32(Message):
@@ -362,7 +362,7 @@ class Int32(Message):
         def __init__(self, **fields: Any) -> None:
             self._data = 0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Int32MultiArray(Message):
@@ -385,7 +385,7 @@ class Int32MultiArray(Message):
             self._layout = fields.get("layout") or MultiArrayLayout()
             self._data = array("i")
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Int64(Message):
@@ -405,7 +405,7 @@ class Int64(Message):
         def __init__(self, **fields: Any) -> None:
             self._data = 0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Int64MultiArray(Message):
@@ -428,7 +428,7 @@ class Int64MultiArray(Message):
             self._layout = fields.get("layout") or MultiArrayLayout()
             self._data = array("q")
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Int8(Message):
@@ -448,7 +448,7 @@ class Int8(Message):
         def __init__(self, **fields: Any) -> None:
             self._data = 0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Int8MultiArray(Message):
@@ -471,7 +471,7 @@ class Int8MultiArray(Message):
             self._layout = fields.get("layout") or MultiArrayLayout()
             self._data = array("b")
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class String(Message):
@@ -491,7 +491,7 @@ class String(Message):
         def __init__(self, **fields: Any) -> None:
             self._data = ""
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class UInt16(Message):
@@ -511,7 +511,7 @@ class UInt16(Message):
         def __init__(self, **fields: Any) -> None:
             self._data = 0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class UInt16MultiArray(Message):
@@ -534,7 +534,7 @@ class UInt16MultiArray(Message):
             self._layout = fields.get("layout") or MultiArrayLayout()
             self._data = array("H")
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class UInt32(Message):
@@ -554,7 +554,7 @@ class UInt32(Message):
         def __init__(self, **fields: Any) -> None:
             self._data = 0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class UInt32MultiArray(Message):
@@ -577,7 +577,7 @@ class UInt32MultiArray(Message):
             self._layout = fields.get("layout") or MultiArrayLayout()
             self._data = array("I")
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class UInt64(Message):
@@ -597,7 +597,7 @@ class UInt64(Message):
         def __init__(self, **fields: Any) -> None:
             self._data = 0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class UInt64MultiArray(Message):
@@ -620,7 +620,7 @@ class UInt64MultiArray(Message):
             self._layout = fields.get("layout") or MultiArrayLayout()
             self._data = array("Q")
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class UInt8(Message):
@@ -640,7 +640,7 @@ class UInt8(Message):
         def __init__(self, **fields: Any) -> None:
             self._data = 0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class UInt8MultiArray(Message):
@@ -663,4 +663,4 @@ class UInt8MultiArray(Message):
             self._layout = fields.get("layout") or MultiArrayLayout()
             self._data = array("B")
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)

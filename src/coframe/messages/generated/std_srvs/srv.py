@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from coframe.messages.definition import BasicType, UnboundedString
-from coframe.messages.message import Message, Service
+from coframe.messages.message import Message, Service, set_fields
 
 
 class Empty_Request(Message):
@@ -22,7 +22,7 @@ class Empty_Request(Message):
 
         def __init__(self, **fields: Any) -> None:
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Empty_Response(Message):
@@ -38,7 +38,7 @@ class Empty_Response(Message):
 
         def __init__(self, **fields: Any) -> None:
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class SetBool_Request(Message):
@@ -58,7 +58,7 @@ class SetBool_Request(Message):
         def __init__(self, **fields: Any) -> None:
             self._data = False
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class SetBool_Response(Message):
@@ -81,7 +81,7 @@ class SetBool_Response(Message):
             self._success = False
             self._message = ""
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Trigger_Request(Message):
@@ -97,7 +97,7 @@ class Trigger_Request(Message):
 
         def __init__(self, **fields: Any) -> None:
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Trigger_Response(Message):
@@ -120,7 +120,7 @@ class Trigger_Response(Message):
             self._success = False
             self._message = ""
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class Empty(Service):

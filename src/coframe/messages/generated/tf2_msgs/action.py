@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from coframe.messages.definition import BasicType, NamespacedType, UnboundedString
-from coframe.messages.message import Action, Message, Service
+from coframe.messages.message import Action, Message, Service, set_fields
 from coframe.messages.generated.action_msgs.msg import GoalStatusArray
 from coframe.messages.generated.action_msgs.srv import CancelGoal
 from coframe.messages.generated.builtin_interfaces.msg import Duration, Time
@@ -50,7 +50,7 @@ class LookupTransform_Goal(Message):
             self._fixed_frame = ""
             self._advanced = False
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class LookupTransform_Result(Message):
@@ -73,7 +73,7 @@ class LookupTransform_Result(Message):
             self._transform = fields.get("transform") or TransformStamped()
             self._error = fields.get("error") or TF2Error()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class LookupTransform_Feedback(Message):
@@ -89,7 +89,7 @@ class LookupTransform_Feedback(Message):
 
         def __init__(self, **fields: Any) -> None:
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class LookupTransform_SendGoal_Request(Message):
@@ -112,7 +112,7 @@ class LookupTransform_SendGoal_Request(Message):
             self._goal_id = fields.get("goal_id") or UUID()
             self._goal = fields.get("goal") or LookupTransform_Goal()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class LookupTransform_SendGoal_Response(Message):
@@ -135,7 +135,7 @@ class LookupTransform_SendGoal_Response(Message):
             self._accepted = False
             self._stamp = fields.get("stamp") or Time()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class LookupTransform_GetResult_Request(Message):
@@ -155,7 +155,7 @@ class LookupTransform_GetResult_Request(Message):
         def __init__(self, **fields: Any) -> None:
             self._goal_id = fields.get("goal_id") or UUID()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class LookupTransform_GetResult_Response(Message):
@@ -178,7 +178,7 @@ class LookupTransform_GetResult_Response(Message):
             self._status = 0
             self._result = fields.get("result") or LookupTransform_Result()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class LookupTransform_FeedbackMessage(Message):
@@ -201,7 +201,7 @@ class LookupTransform_FeedbackMessage(Message):
             self._goal_id = fields.get("goal_id") or UUID()
             self._feedback = fields.get("feedback") or LookupTransform_Feedback()
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class LookupTransform_SendGoal(Service):

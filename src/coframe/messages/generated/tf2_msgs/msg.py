@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final
 
 from coframe.messages.definition import BasicType, NamespacedType, UnboundedSequence, UnboundedString
-from coframe.messages.message import Message
+from coframe.messages.message import Message, set_fields
 from coframe.messages.generated.geometry_msgs.msg import TransformStamped
 
 
@@ -37,7 +37,7 @@ class TF2Error(Message):
             self._error = 0
             self._error_string = ""
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class TFMessage(Message):
@@ -57,4 +57,4 @@ class TFMessage(Message):
         def __init__(self, **fields: Any) -> None:
             self._transforms = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from coframe.messages.definition import UnboundedString
-from coframe.messages.message import Message, Service
+from coframe.messages.message import Message, Service, set_fields
 
 
 class FrameGraph_Request(Message):
@@ -22,7 +22,7 @@ class FrameGraph_Request(Message):
 
         def __init__(self, **fields: Any) -> None:
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class FrameGraph_Response(Message):
@@ -42,7 +42,7 @@ class FrameGraph_Response(Message):
         def __init__(self, **fields: Any) -> None:
             self._frame_yaml = ""
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class FrameGraph(Service):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import coframe.lazy_numpy as np
 from coframe.messages.definition import Array, BasicType
-from coframe.messages.message import Message
+from coframe.messages.message import Message, set_fields
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -32,4 +32,4 @@ class UUID(Message):
         def __init__(self, **fields: Any) -> None:
             self._uuid = np.zeros(16, np.uint8)
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)

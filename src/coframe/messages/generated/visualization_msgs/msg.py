@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from coframe.distributions import follows
 from coframe.messages.definition import BasicType, NamespacedType, UnboundedSequence, UnboundedString
-from coframe.messages.message import Message
+from coframe.messages.message import Message, set_fields
 from coframe.messages.generated.builtin_interfaces.msg import Duration
 from coframe.messages.generated.geometry_msgs.msg import Point, Pose, Quaternion, Vector3
 from coframe.messages.generated.sensor_msgs.msg import CompressedImage
@@ -80,7 +80,7 @@ class ImageMarker(Message):
             self._points = []
             self._outline_colors = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class MenuEntry(Message):
@@ -115,7 +115,7 @@ class MenuEntry(Message):
             self._command = ""
             self._command_type = 0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class UVCoordinate(Message):
@@ -138,7 +138,7 @@ class UVCoordinate(Message):
             self._u = 0.0
             self._v = 0.0
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class MeshFile(Message):
@@ -161,7 +161,7 @@ class MeshFile(Message):
             self._filename = ""
             self._data = array("B")
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 if TYPE_CHECKING or not follows("humble"):
@@ -253,7 +253,7 @@ if TYPE_CHECKING or not follows("humble"):
                 self._mesh_file = fields.get("mesh_file") or MeshFile()
                 self._mesh_use_embedded_materials = False
                 if fields:
-                    super().__init__(**fields)
+                    set_fields(self, fields)
 
 else:
     class Marker(Message):
@@ -343,7 +343,7 @@ else:
                 self._mesh_file = fields.get("mesh_file") or MeshFile()
                 self._mesh_use_embedded_materials = False
                 if fields:
-                    super().__init__(**fields)
+                    set_fields(self, fields)
 
 
 class InteractiveMarkerControl(Message):
@@ -397,7 +397,7 @@ class InteractiveMarkerControl(Message):
             self._independent_marker_orientation = False
             self._description = ""
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class InteractiveMarker(Message):
@@ -435,7 +435,7 @@ class InteractiveMarker(Message):
             self._menu_entries = []
             self._controls = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class InteractiveMarkerFeedback(Message):
@@ -485,7 +485,7 @@ class InteractiveMarkerFeedback(Message):
             self._mouse_point = fields.get("mouse_point") or Point()
             self._mouse_point_valid = False
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class InteractiveMarkerInit(Message):
@@ -511,7 +511,7 @@ class InteractiveMarkerInit(Message):
             self._seq_num = 0
             self._markers = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class InteractiveMarkerPose(Message):
@@ -537,7 +537,7 @@ class InteractiveMarkerPose(Message):
             self._pose = fields.get("pose") or Pose()
             self._name = ""
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class InteractiveMarkerUpdate(Message):
@@ -574,7 +574,7 @@ class InteractiveMarkerUpdate(Message):
             self._poses = []
             self._erases = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class MarkerArray(Message):
@@ -594,4 +594,4 @@ class MarkerArray(Message):
         def __init__(self, **fields: Any) -> None:
             self._markers = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from coframe.messages.definition import BasicType, NamespacedType, UnboundedSequence
-from coframe.messages.message import Message, Service
+from coframe.messages.message import Message, Service, set_fields
 from coframe.messages.generated.visualization_msgs.msg import InteractiveMarker
 
 
@@ -23,7 +23,7 @@ class GetInteractiveMarkers_Request(Message):
 
         def __init__(self, **fields: Any) -> None:
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class GetInteractiveMarkers_Response(Message):
@@ -46,7 +46,7 @@ class GetInteractiveMarkers_Response(Message):
             self._sequence_number = 0
             self._markers = []
             if fields:
-                super().__init__(**fields)
+                set_fields(self, fields)
 
 
 class GetInteractiveMarkers(Service):
