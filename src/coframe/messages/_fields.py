@@ -143,7 +143,7 @@ def number_of(type_: AbstractType) -> NumberFormat | None:
 
 def constructor_setter(type_: AbstractType, descriptor: Any) -> Setter:
     """Return what stores a constructor's argument in a field: constructors accept numbers in any iterable."""
-    assign: Setter = descriptor.fset if isinstance(descriptor, property) else descriptor.__set__
+    assign: Any = descriptor.fset if isinstance(descriptor, property) else descriptor.__set__
     number = number_of(type_)
     if number is None:
         return assign
