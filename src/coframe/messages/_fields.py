@@ -143,7 +143,8 @@ def number_of(type_: AbstractType) -> NumberFormat | None:
 
 def constructor_setter(type_: AbstractType, descriptor: Any) -> Setter:
     """Return what stores a constructor's argument in a field: constructors accept numbers in any iterable."""
-    assign: Any = descriptor.fset if isinstance(descriptor, property) else descriptor.__set__
+    setter: Any = descriptor.fset if isinstance(descriptor, property) else descriptor.__set__
+    assign: Setter = setter
     number = number_of(type_)
     if number is None:
         return assign
