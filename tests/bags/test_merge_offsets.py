@@ -140,4 +140,4 @@ def test_thin_evidence_is_refused(tmp_path, change, method, reason):
 def test_one_offset_is_given_for_each_recording_after_the_first(tmp_path):
     bag = record(tmp_path / "a")
     code, said = merge(tmp_path / "both", bag, bag, "--offset", "0s", "--offset", "1s")
-    assert (code, "--offset: give 1, one for each recording after the first one" in said) == (2, True)
+    assert (code, "--offset: give 1, one for each recording after the first" in said) == (2, True)

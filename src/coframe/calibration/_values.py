@@ -75,13 +75,13 @@ class Place:
         """Return a whole number of pixels."""
         found = self.number()
         if found != round(found) or not 0 <= found < 1 << 31:
-            self.fail(f"is not a whole number from 0 on: {self.value!r}")
+            self.fail(f"is not an integer of at least 0: {self.value!r}")
         return int(found)
 
     def text(self) -> str:
         """Return a text."""
         if not isinstance(self.value, str):
-            self.fail(f"is not a text: {str(self.value)[:60]!r}")
+            self.fail(f"is not a string: {str(self.value)[:60]!r}")
         return self.value
 
     def numbers(self, *counts: int) -> Array:

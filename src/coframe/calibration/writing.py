@@ -157,7 +157,7 @@ def _kalibr_camera(name: str, camera: CameraModel) -> tuple[str, list[float], st
 def _camera_info(rig: Rig) -> str:
     if len(rig.cameras) != 1:
         raise CalibrationError(
-            f"a camera_info file has one camera, and the calibration has {len(rig.cameras)}",
+            f"a camera_info file contains one camera, but the calibration has {len(rig.cameras)}",
             hint=f"Choose one with `coframe calib convert --camera NAME`: {', '.join(rig.cameras)}."
             if rig.cameras
             else "",

@@ -280,7 +280,7 @@ def _rows(values: ArrayLike, size: int) -> tuple[Array, tuple[int, ...]]:
     """Return vectors as rows, and the shape in front of them."""
     array = np.asarray(values, np.float64)
     if array.ndim == 0 or array.shape[-1] != size:
-        raise ValueError(f"an array of shape (..., {size}) is needed, not {array.shape}")
+        raise ValueError(f"expected an array of shape (..., {size}), not {array.shape}")
     return array.reshape(-1, size), array.shape[:-1]
 
 

@@ -130,7 +130,7 @@ def lens_of(name: str, coefficients: Sequence[float] = ()) -> Lens:
         if any(values) and re.sub(r"[^a-z0-9]", "", name.lower()):
             raise CameraError(
                 f"the distortion model {shown} has no coefficients, but there are {len(values)} that are not all zero",
-                hint="Name the model of the coefficients: plumb_bob or equidistant, for example.",
+                hint="Name the model of the coefficients, for example plumb_bob or equidistant.",
             )
         found = "plumb_bob"
     model = _MODELS[found]

@@ -323,7 +323,7 @@ def list_formats(kind: str | None, verbose: bool) -> None:
     "topic:/scan (messages that both received) or motion:map:base_link[=world:camera] (rotation of one body). Give one "
     "for each recording after the first one.",
 )
-@click.option("--join", is_flag=True, help="Join equal names, even if they seem to be of different robots.")
+@click.option("--join", is_flag=True, help="Merge equal names, even if they seem to belong to different robots.")
 @compression_option
 def merge(
     bags: tuple[Path, ...],
@@ -337,7 +337,7 @@ def merge(
 ) -> None:
     """Merge several recordings into one, with the messages in receive order.
 
-    Topics with the same name are joined. If the frames of each recording have their own prefix, the topics are
+    Topics with the same name are merged. If the frames of each recording have their own prefix, the topics are
     kept separate as /robot1/scan and /robot2/scan; --prefix adds such prefixes. Shared topics such as /tf, /clock and
     /rosout keep their names. Different robots must not use the same names.
 
@@ -350,7 +350,7 @@ def merge(
     if offsets and len(bags) < 2:
         fail("--offset needs at least two recordings", code=2)
     if offsets and len(offsets) != len(bags) - 1:
-        fail(f"--offset: give {len(bags) - 1}, one for each recording after the first one", code=2)
+        fail(f"--offset: give {len(bags) - 1}, one for each recording after the first", code=2)
     try:
         _copy(
             bags,

@@ -120,7 +120,7 @@ def _rule_options(command: Any) -> Any:
 @click.option("--save-recipe", metavar="FILE", type=PATH, help="Write the rules to a YAML file.")
 @click.option("--dry-run", is_flag=True, help="Only count what each rule would change.")
 @click.option(
-    "--compression", metavar="METHOD", help="Compression of MCAP chunks: none, zstd or lz4. [default: that of BAG]"
+    "--compression", metavar="METHOD", help="Compression of MCAP chunks: none, zstd or lz4. [default: the same as BAG]"
 )
 @click.pass_context
 def edit(
@@ -136,7 +136,7 @@ def edit(
     """Write an edited copy of the recording BAG; BAG is not changed.
 
     Rules are applied in the order in which they are given, and each can be repeated. Everything else is
-    copied unchanged. The copy has the format of BAG: a file if OUT has the suffix of one (fixed.mcap), otherwise a
+    copied unchanged. The copy has the format of BAG: a file if OUT has a file suffix (fixed.mcap), otherwise a
     folder. ROS 1 bags become MCAP.
 
     The exit code is 3 if the copy was written but a rule changed nothing, such as one with a misspelled name.

@@ -97,7 +97,7 @@ __all__ = ["batch"]
     "--on-gap",
     metavar="MODE",
     type=click.Choice(GAP_CHOICES),
-    help="What to do with values that are missing: omit the row, nan, or raise, which omits the recording. [default: "
+    help="What to do with missing values: omit the row, nan, or raise, which omits the recording. [default: "
     "omit; nan with --column]",
 )
 @validity_option

@@ -103,7 +103,7 @@ def _select_camera(rig: Rig, camera: str) -> Rig:
     "--tolerance",
     metavar="LIMITS",
     default="1mm,0.1deg",
-    help="Accepted differences with units (mm, cm, m, deg, rad, px, ms): 5mm,0.2deg.",
+    help="Accepted differences, with units (mm, cm, m, deg, rad, px, ms): 5mm,0.2deg.",
 )
 @click.option(
     "--rename",
@@ -157,9 +157,9 @@ def history(
 ) -> None:
     """Measure the mounts between sensors in each recording, and exit with 1 if a sensor has moved.
 
-    Two sensors that see one thing at the same time, such as two cameras and a tag, show the mount between them. Without
-    --pair, all topics with poses whose frames have a static transform are used. A sensor has moved if two recordings in
-    a row show it above four standard deviations, with an unchanged /tf_static.
+    The mount between two sensors is measured while both observe the same object, such as two cameras and a tag. Without
+    --pair, all topics with poses whose frames have a static transform are used. A sensor has moved if its mount changes
+    by more than four standard deviations in two consecutive recordings, with an unchanged /tf_static.
 
     Example: coframe calib history runs/*.mcap --pair /left/tag /right/tag -o mounts.parquet
     """

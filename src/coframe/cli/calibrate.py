@@ -72,14 +72,14 @@ def _options(function: Callable[..., None]) -> Callable[..., None]:
             metavar="X Y Z",
             type=float,
             nargs=3,
-            help="Position of the sensor in meters, for directions that the motion does not show. [default: 0 0 0]",
+            help="Position of the sensor in meters, for directions that the motion does not determine. [default: 0 0 0]",
         ),
     ):
         function = option(function)
     return function
 
 
-@calibrate.command("rigid", short_help="From two trajectories of one rigid body.")
+@calibrate.command("rigid", short_help="Calibrate from two trajectories of one rigid body.")
 @bag_argument
 @argument("first", metavar="ROOT:BODY", help="A root frame and the body: odom:base_link.")
 @argument("second", metavar="ROOT:SENSOR", help="Another root frame and the sensor: map:camera_optical_frame.")
@@ -96,7 +96,7 @@ def rigid(
 ) -> None:
     """Estimate the pose of SENSOR in BODY, and the offset of their clocks, from the recording BAG.
 
-    Topics with poses can be given instead of frames: /odom. Motions over up to 3 s are compared, so that odometry may
+    Topics with poses can be given instead of frames: /odom. Motions of up to 3 s are compared, so odometry may
     drift.
 
     Example: coframe calibrate rigid run.mcap odom:base_link map:camera_optical_frame -o mount.urdf
@@ -109,7 +109,7 @@ def rigid(
         _report(found, (body, sensor), bag, output, as_json=as_json)
 
 
-@calibrate.command("hand-eye", short_help="From poses of a gripper and of a tag that a camera sees.")
+@calibrate.command("hand-eye", short_help="Calibrate from the poses of a gripper and of a tag that a camera sees.")
 @bag_argument
 @argument("base", metavar="BASE", help="Base frame of the robot.")
 @argument("gripper", metavar="GRIPPER", help="Frame of the gripper, which moves.")

@@ -75,9 +75,13 @@ __all__ = ["cloud"]
 )
 @click.option("--color", metavar="IMAGE_TOPIC", help="Color the points that the camera of these images sees.")
 @click.option(
-    "--color-info", metavar="TOPIC", help="CameraInfo of the images of --color. [default: the one next to them]"
+    "--color-info",
+    metavar="TOPIC",
+    help="CameraInfo of the images of --color. [default: the camera_info topic next to them]",
 )
-@click.option("--depth-info", metavar="TOPIC", help="CameraInfo of depth images. [default: the one next to them]")
+@click.option(
+    "--depth-info", metavar="TOPIC", help="CameraInfo of depth images. [default: the camera_info topic next to them]"
+)
 @click.option("--voxel", metavar="METERS", type=float, help="Keep one point per cube with this edge length, in meters.")
 @click.option(
     "--float64", is_flag=True, help="Also write the coordinates in PCD and MCAP files as float64. [default: float32]"

@@ -392,7 +392,9 @@ def _require_plain_recording(bag: Readable | None, has_other_options: bool) -> N
     if bag is None:
         fail("--fix and --recipe need a recording", code=2)
     if has_other_options:
-        fail("--fix and --recipe concern the whole recording, as text: remove the options that change that", code=2)
+        fail(
+            "--fix and --recipe examine the whole recording and print text: remove the options that change this", code=2
+        )
 
 
 def _styled_lines(report: Report) -> list[Text]:

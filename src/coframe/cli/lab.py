@@ -136,8 +136,8 @@ def run(
 ) -> None:
     """Run the nodes of a folder with a simulated lidar, and show them in the viewer.
 
-    The arm moves as step 2 simulates it. With --joints, it has to follow the joint states of the robot: if it jumps
-    between two poses, its simulation continues next to them. Each output line has the name of its node. The
+    The arm moves as simulated in step 2. With --joints, it has to follow the joint states of the robot: if it jumps
+    between two poses, its simulation has not stopped. Each output line has the name of its node. The
     viewer's findings show what is missing.
 
     Example: coframe lab run my_lab
@@ -226,7 +226,7 @@ def check(
     """Grade the nodes in a folder by what they publish: up to 100 points, plus 10 for each of four extensions.
 
     The nodes run with a simulated clock and limits on time, memory and output. The exit code is 0 regardless of the
-    grade. With --all, each grade is written as soon as it is known, and Ctrl-C keeps what is finished.
+    grade. With --all, each grade is written as soon as it is known, and Ctrl-C keeps all finished grades.
 
     Example: coframe lab check my_lab
     """
@@ -334,7 +334,9 @@ def autograder(platform: str, output: Path, wheel: Path, variant: int | None, la
     required=False,
     help=f"Number of a fault, 1 to {len(FAULTS)}; omit it with --random.",
 )
-@click.option("--random", "seed", metavar="SEED", help="Draw the fault that belongs to this text, for an examination.")
+@click.option(
+    "--random", "seed", metavar="SEED", help="Choose a random fault, with this text as the seed, for an exam."
+)
 @click.option("--answer", metavar="FAULT", help="Check this answer instead of starting the system.")
 @language_option
 @click.option("--browser/--no-browser", help="Open the viewer in the browser; its findings are a hint.")

@@ -85,7 +85,7 @@ def measured_in(
             warn(text if text.startswith(bag) else f"{bag}: {text}")
             continue
         if not mounts:
-            warn(f"{bag}: no two sensors see one thing at the same time; name their topics with --pair")
+            warn(f"{bag}: no two sensors observe the same object at the same time; name their topics with --pair")
         for mount in mounts:
             if not mount.fits:
                 warn(

@@ -79,7 +79,7 @@ class _Answer(NamedTuple):
     metavar=_NAMES,
     nargs=-1,
     shell_complete=complete_frames,
-    help="The frames, as in coframe lookup. Omit BAG to use the live ROS graph.",
+    help="The two frames, in the same order as in coframe lookup. Omit BAG to use the live ROS graph.",
 )
 @click.option(
     "--at",

@@ -61,7 +61,7 @@ def submissions(folder: Path, scratch: Path) -> dict[str, Submission]:
     """Return the submission of each student, by the name of its folder or file.
 
     A folder without files of the lab is also a submission. Hidden files, and those that macOS adds to archives, are
-    not. A symbolic link is a submission that cannot be graded, because it may point to files of someone else.
+    not. A symbolic link is a submission that cannot be graded, because it may point to files of another user.
 
     Args:
         folder: The folder, or a zip file of it.

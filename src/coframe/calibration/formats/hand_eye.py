@@ -51,7 +51,7 @@ def hand_eye_text(rig: Rig) -> str:
         CalibrationError: There are several mounts.
     """
     if len(rig.transforms) != 1:
-        raise CalibrationError(f"easy_handeye2 has one mount, and the calibration has {len(rig.transforms)}")
+        raise CalibrationError(f"easy_handeye2 stores one mount, but the calibration has {len(rig.transforms)}")
     (mount,) = rig.transforms
     on_base = any(word in str(mount.target) for word in ("base", "world", "map", "odom"))
     base, effector = (json.dumps(mount.target if each else "") for each in (on_base, not on_base))

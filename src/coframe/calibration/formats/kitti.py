@@ -127,12 +127,12 @@ def kitti_text(rig: Rig) -> str:
     for number, (name, model) in enumerate(rig.cameras.items()):
         if any(model.lens.coefficients):
             raise CalibrationError(
-                f"calib.txt of KITTI has rectified cameras only, and {name} has a distortion",
+                f"calib.txt of KITTI supports only rectified cameras, and {name} has a distortion",
                 hint="Rectify the images, and write the calibration of the rectified cameras.",
             )
         pose = rig.lookup(first, model.frame) if number else Transform()
         if np.abs(pose.matrix[:3, :3] - np.eye(3)).max() > _MAX_TURN:
-            raise CalibrationError(f"calib.txt of KITTI has parallel cameras only, and {name} is turned")
+            raise CalibrationError(f"calib.txt of KITTI supports only parallel cameras, and {name} is rotated")
         p = np.column_stack([model.k, -model.k @ pose.translation])
         lines.append(f"P{number}: {_words(p)}")
     if "velo" in rig.frames:

@@ -46,7 +46,10 @@ _CLEAR = "\x1b[H\x1b[2J"  # moves the cursor home and clears the terminal
 @click.command(cls=GraphCommand, short_help="Print the messages of a topic as YAML.")
 @topic_argument
 @argument(
-    "message_type", metavar="[TYPE]", required=False, help="Type, e.g. std_msgs/msg/String. [default: the topic's]"
+    "message_type",
+    metavar="[TYPE]",
+    required=False,
+    help="Type, e.g. std_msgs/msg/String. [default: the type of the topic]",
 )
 @click.option(
     "--field",
