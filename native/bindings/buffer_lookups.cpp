@@ -46,7 +46,7 @@ bool wait_for_shared(const Buffer& core, LookupQuery& query, std::int64_t timeou
   });
 }
 
-// Tries at once, then waits without the GIL for an insertion that makes the lookup succeed.
+// Tries immediately, then waits without the GIL for an insertion that makes the lookup succeed.
 bool lookup_by_name_waiting(BufferObject& self, LookupQuery& query, std::int64_t timeout_ns, LookupResult& result,
                             Failure& failure) {
   const ChangeTimeout limit(timeout_ns);
@@ -155,7 +155,7 @@ PyObject* lookup_general(PyObject* object, PyObject* const* arguments, Py_ssize_
     const std::int64_t timeout = to_duration(handle_or_none(values[3]));
     const ChangeTimeout limit(timeout);
     std::optional<Extrapolation> extrapolation = extrapolation_of(handle_or_none(values[4]), is_true(values[5]));
-    // A lookup that succeeds at once needs neither waiting nor extrapolation.
+    // A lookup that succeeds immediately needs neither waiting nor extrapolation.
     const auto checked = [&](nb::object found) {
       check_gap(object, values[0], values[1], found, handle_or_none(values[6]));
       return found.release().ptr();

@@ -131,7 +131,7 @@ void define_participant(nb::module_& wire) {
       .def_prop_ro("entity", &PyParticipant::entity, "DDS's number for the participant; 0 after close.")
       .def_prop_ro("guid", [](const PyParticipant& self) { return to_bytes(guid_of(self)); })
       .def("set_user_data", &PyParticipant::set_user_data, nb::arg("user_data"), ReleaseGil(),
-           "Replace the user data. If they differ, DDS announces the participant at once.")
+           "Replace the user data. If they differ, DDS announces the participant immediately.")
       .def("close", &PyParticipant::close, ReleaseGil(), "End the participant and DDS's threads.");
 }
 

@@ -29,7 +29,7 @@ struct TimedTransform {
 
 // The samples of an edge since the last one that was sent. The method is an opening window: a sample stays pending as
 // long as the interpolation from the last sent sample to the newest one is close to all samples between them. When it
-// is not, the sample before the newest one is sent. Equal or older stamps are sent at once, with all pending samples.
+// is not, the sample before the newest one is sent. Equal or older stamps are sent immediately, with all pending samples.
 class Thinning {
  public:
   // Limits the time that add() takes, and the memory.
@@ -40,7 +40,7 @@ class Thinning {
   bool add(const MaxError& most, const TimedTransform& transform, std::vector<TimedTransform>& due);
   // Appends the newest sample to `due` if it is pending. All other pending samples are dropped.
   void flush(std::vector<TimedTransform>& due);
-  // The next sample is sent at once, because interpolation from earlier ones does not apply to it.
+  // The next sample is sent immediately, because interpolation from earlier ones does not apply to it.
   void restart();
 
   std::size_t pending() const { return pending_.size(); }

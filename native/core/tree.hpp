@@ -51,7 +51,7 @@ class Tree {
   std::string name(FrameId id) const { return std::string(frame(id).name.view()); }
   History::View history(FrameId id) const { return frame(id).history.view(); }
   History::Span span(FrameId id) const { return frame(id).history.span(); }
-  // Accepts any number, also from the samples of a damaged file; returns NO_PARENT for an unknown one.
+  // Accepts any number, including from the samples of a damaged file; returns NO_PARENT for an unknown one.
   const Frame& frame(FrameId id) const {
     const TreeData& tree = data();
     const Frame* frame = tree.frames.find(id);

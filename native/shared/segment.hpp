@@ -5,7 +5,7 @@
 // The files of a tree NAME in a folder that only this user can enter:
 //   NAME        the memory. Every process that has it open holds a shared lock (flock) on it.
 //   NAME.lock   a named pipe. The writer holds an exclusive lock on it and has it open for writing; both end with its
-//               process. The others wait for the end of the pipe, so they notice the end of the writer at once.
+//               process. The others wait for the end of the pipe, so they notice the end of the writer immediately.
 #pragma once
 
 #include <atomic>

@@ -22,7 +22,7 @@ class DomainParticipant {
   void close() noexcept;
   dds::Entity entity() const { return participant_; }
   dds::Guid guid() const;
-  // Replaces the user data. If they differ, DDS announces the participant at once.
+  // Replaces the user data. If they differ, DDS announces the participant immediately.
   void set_user_data(const std::string& user_data);
 
  private:

@@ -29,7 +29,7 @@ VERIFY: Final = ROOT / "tests/process/inside_ros2/verify.py"
 OK, REFUSED, IMPOSSIBLE, FAILED, SKIPPED = "ok", "refused", "no", "FAILED", "-"
 INSIDE: Final = "ros2"  # the row that runs in a process of ROS 2
 ROWS: Final = {
-    "topics": "20 message types, also with 1 MB",
+    "topics": "20 message types, up to 1 MB",
     "latched": "static transforms and latched messages for late joiners",
     "graph": "nodes, topics and services in the graph",
     "endpoints": "node and QoS of a publisher",

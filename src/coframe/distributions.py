@@ -170,7 +170,7 @@ BEHAVIORS: Final[Mapping[str, Behavior]] = {
         "converted; `ROS_PYTHON_CHECK_FIELDS=1` makes them an `AssertionError`",
     ),
     "endpoint_information": Behavior(
-        "information on publishers and subscriptions, also that of `topic info --verbose`",
+        "information on publishers and subscriptions, including that of `topic info --verbose`",
         _JAZZY,
         "no type hash in the text; identifiers of 24 bytes",
         "the type hash in the text; identifiers of 16 bytes",

@@ -58,7 +58,7 @@ class Cloud(NamedTuple):
         points: A structured array, (N,): ``x``, ``y``, ``z`` in meters as float64, all finite unless ``on_gap`` is
             ``"nan"``, and the other fields of the message with their types.
         deskewed: Whether each point was transformed at its own time.
-        used_times: Name of the field with these times, also if all points of the message have the same time, or None if
+        used_times: Name of the field with these times, even if all points of the message have the same time, or None if
             there is none, or if the points were not deskewed although their times differ.
     """
 

@@ -419,7 +419,7 @@ class McapStorage(ChunkedStorage):
         known_channel = self._channels.get(number)
         if known_channel is not None and _channel_key(known_channel) == _channel_key(channel):
             self._channel_records[number] = data
-            return None  # Messages of a channel are one track, also if its metadata are written in another order.
+            return None  # Messages of a channel are one track, even if its metadata are written in another order.
         if known_channel is not None and known_channel.type:
             self.add_problem(f"channel {number} is defined differently for {known_channel.topic} and for {topic}")
         self._channels[number], self._channel_records[number] = channel, data

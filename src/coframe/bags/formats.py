@@ -60,7 +60,7 @@ class Mcap(RecordingFormat):
         return self.open_source(path, problems)
 
     def open_source(self, source: Readable, problems: Problems) -> Storage:
-        """Open a file, also on a server."""
+        """Open a local or remote file."""
         from coframe.bags._mcap_file import McapStorage  # noqa: PLC0415 - see the base class
 
         return McapStorage(source, problems)
@@ -123,7 +123,7 @@ class Ros1(RecordingFormat):
         return self.open_source(path, problems)
 
     def open_source(self, source: Readable, problems: Problems) -> Storage:
-        """Open a file, also on a server."""
+        """Open a local or remote file."""
         from coframe.bags._ros1_file import Ros1Storage  # noqa: PLC0415 - see the base class
 
         return Ros1Storage(source, problems)
@@ -201,7 +201,7 @@ def matches(format_: RecordingFormat, path: Path, beginning: bytes) -> bool:
 
 
 def has_known_suffix(path: PurePath) -> bool:
-    """Return whether a path has the suffix of a format, also in front of a compression suffix."""
+    """Return whether a path has the suffix of a format, including in front of a compression suffix."""
     return PurePath(path.name.removesuffix(COMPRESSED)).suffix.lower() in suffixes()
 
 

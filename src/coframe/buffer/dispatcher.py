@@ -61,7 +61,7 @@ class Dispatcher:
         _all.add(self)
 
     def reset(self) -> None:
-        """Drop all waits and watches, also in a forked process, which has no thread but may have held locks."""
+        """Drop all waits and watches, including in a forked process, which has no thread but may have held locks."""
         self._mailbox = _core.Mailbox()
         # The locks are reentrant, because finalizers and signal handlers can run while a thread holds one.
         self._lock = threading.RLock()  # Guards the attributes below; no callback is called while it is held.

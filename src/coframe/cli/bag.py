@@ -511,7 +511,7 @@ def _text(text: str, style: str = "") -> Text:
 
 
 def _to_plain_data(value: Any) -> Any:
-    """Return named tuples as dictionaries, also inside lists and tuples."""
+    """Return named tuples as dictionaries, including inside lists and tuples."""
     if isinstance(value, (list, tuple)):
         parts = [_to_plain_data(part) for part in value]
         return dict(zip(value._fields, parts, strict=True)) if hasattr(value, "_fields") else parts

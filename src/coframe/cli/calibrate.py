@@ -72,7 +72,7 @@ def _options(function: Callable[..., None]) -> Callable[..., None]:
             metavar="X Y Z",
             type=float,
             nargs=3,
-            help="Position of the sensor in meters, for directions that the motion does not determine. [default: 0 0 0]",
+            help="Position of the sensor in meters, where the motion does not determine it. [default: 0 0 0]",
         ),
     ):
         function = option(function)

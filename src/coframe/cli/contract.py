@@ -139,8 +139,8 @@ def check(
 ) -> None:
     """Check the recordings BAG... against a contract; `live` checks the running system.
 
-    The exit code is 0 if all recordings satisfy the contract, 1 if one violates it, and 2 if a recording or the contract
-    cannot be read, or a report cannot be written.
+    The exit code is 0 if all recordings satisfy the contract, 1 if one violates it, and 2 if a recording or the
+    contract cannot be read, or a report cannot be written.
 
     Example: coframe contract check runs/*.mcap -c contract.yaml --junit contract.xml
     """

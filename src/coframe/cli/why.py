@@ -233,7 +233,7 @@ def _lookup_time(at: str | None, clock: int | None, window: int) -> int | None:
 
 
 def _relevant_reports(found: Explanation, seen: Iterable[Observation]) -> list[Report]:
-    """Return the findings about the edges of the chain; if the chain is incomplete, also those about its frames."""
+    """Return the findings about the edges of the chain and, if the chain is incomplete, about its frames."""
     edges = {(edge.parent, edge.child) for edge in found.edges}
     frames = {found.target, found.source, *found.frames}
     incomplete = found.roots is not None or bool(found.unknown)

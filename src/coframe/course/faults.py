@@ -310,7 +310,7 @@ def draw(seed: str) -> int:
 
 
 def named_fault(answer: str, language: Language = ENGLISH) -> Fault | None:
-    """Return the fault that an answer names, also in other words, or None if it names none or several.
+    """Return the fault that an answer describes in any words, or None if it names none or several.
 
     Args:
         answer: The answer, in English, or a name in the given language.

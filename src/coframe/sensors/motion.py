@@ -29,7 +29,7 @@ def still_frame(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[
     """Return the frame in which points can be deskewed: one that does not move with the robot that carries the sensor.
 
     This is the target, unless it moves together with the sensor relative to a frame above both: then it is that frame,
-    also if a joint between the two moves. Frames that are fixed by convention, such as ``odom`` and ``map``,
+    even if a joint between the two moves. Frames that are fixed by convention, such as ``odom`` and ``map``,
     are not taken for parts of the robot, although a localization may move them a little.
 
     Args:

@@ -44,7 +44,7 @@ NO_TIME = np.iinfo(np.int64).min  # The integer of NumPy's NaT.
 _MAX_SWEEP = 10 * SECOND  # Values that differ more from the message's stamp are not times of its points.
 _MAX_OFFSET = 100_000_000 * SECOND  # About three years: larger values are absolute times.
 _MAX_TIME = 2.0**62  # Nanoseconds, in the year 2116.
-# Sweeps of spinning and solid-state lidars, also of those whose messages were thinned out.
+# Sweeps of spinning and solid-state lidars, including those whose messages were thinned out.
 _MIN_USUAL_SWEEP, _MAX_USUAL_SWEEP = 5 * MILLISECOND, SECOND
 # The sweep of a message in periods: two lidars may share a topic, and some lidars rest between two sweeps.
 _MIN_PERIODS, _MAX_PERIODS = 1 / 30, 3.0

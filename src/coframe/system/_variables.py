@@ -39,9 +39,9 @@ _EFFECTS: Final = {
     "ZENOH_SESSION_CONFIG_URI": "the configuration file of Zenoh sessions",
 }
 _PREFIXES: Final = {
-    "FASTRTPS_": "configures nodes on Fast DDS, also those of coframe",
-    "FASTDDS_": "configures nodes on Fast DDS, also those of coframe",
-    "RMW_FASTRTPS_": "configures nodes on Fast DDS, also those of coframe",
+    "FASTRTPS_": "configures nodes on Fast DDS, including those of coframe",
+    "FASTDDS_": "configures nodes on Fast DDS, including those of coframe",
+    "RMW_FASTRTPS_": "configures nodes on Fast DDS, including those of coframe",
     "ROS_SECURITY_": "the security of DDS, which coframe has on Fast DDS only; elsewhere, Enforce is refused",
     "ZENOH_": "no effect on coframe",
     "COFRAME_": "unknown to coframe",

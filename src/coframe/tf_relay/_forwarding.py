@@ -37,7 +37,7 @@ _logger = logging.getLogger("coframe.wire")
 
 _CHECK_PERIOD = 500 * MILLISECOND
 _BATCH = 100  # messages
-# The first message is forwarded at once. Messages that arrive within this time after it are collected and written
+# The first message is forwarded immediately. Messages that arrive within this time after it are collected and written
 # together, which reduces the number of wake-ups and writes with many robots.
 _COLLECTION_TIME = 0.005  # seconds
 _FORGET_AFTER = 60 * SECOND

@@ -35,8 +35,8 @@ class Transform(TransformConstructors):
 
     ``point_target = transform @ point_source``. A frame of None matches any frame. A batch has additional
     leading axes: ``translation`` (..., 3), ``quaternion`` (..., 4). Transforms are immutable: their arrays are
-    read-only, also those of batches. ``np.asarray(transform)`` is a new array of shape (..., 7): x, y, z, qx, qy, qz,
-    qw, as ``transform.values``.
+    read-only, including those of batches. ``np.asarray(transform)`` is a new array of shape (..., 7): x, y, z, qx, qy,
+    qz, qw, as ``transform.values``.
 
     ``Transform(message)`` reads any ROS message that contains a pose, whichever program made its class: Pose,
     TransformStamped, Odometry, Path, Marker, ... Its ``frame_id`` becomes ``target``, its ``child_frame_id``

@@ -240,7 +240,7 @@ def start_viewer(
     Args:
         title: The title of the page until then.
         mode: The kind of source until then.
-        fixed: The fixed frame; see :func:`show`, also for the other arguments.
+        fixed: The fixed frame; see :func:`show`, which also describes the other arguments.
         rviz: A configuration file of RViz 2 or RViz 1.
         robot: The URDF or xacro file of a robot.
         robot_arguments: The values of ``$(arg NAME)`` in a xacro file.

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 MAX_DELAY: Final = 1.0  # seconds after which a reply is sent even if its client has not been discovered
-MAX_WAITING_CLIENTS: Final = 1000  # of a service; replies to more clients are sent at once
-MAX_WAITING_REPLIES: Final = 100  # to one client; more are sent at once
+MAX_WAITING_CLIENTS: Final = 1000  # of a service; replies to more clients are sent immediately
+MAX_WAITING_REPLIES: Final = 100  # to one client; more are sent immediately
 
 _MIN_PAUSE: Final = 0.001  # seconds between two checks, which double up to the longest
 _MAX_PAUSE: Final = 0.02
@@ -63,7 +63,7 @@ class DelayedReplies:
         Args:
             client: Identifies the client: the handle of its writer of requests.
             reaches: Returns whether a reply that is sent now reaches the client.
-            send: Sends the reply. If it is called at once, its exceptions are those of this method.
+            send: Sends the reply. If it is called immediately, its exceptions are those of this method.
         """
         if (client not in self._waiting_replies and reaches()) or not self._store(client, reaches, send):
             send()

@@ -70,7 +70,7 @@ class LaunchDescription(LaunchDescriptionEntity):
         return self.__entities
 
     def get_launch_arguments(self, conditional_inclusion: bool = False) -> list[DeclareLaunchArgument]:
-        """Return all declared arguments, also those of included launch files.
+        """Return all declared arguments, including those of included launch files.
 
         Args:
             conditional_inclusion: Whether the description itself is included under a condition.

@@ -75,7 +75,7 @@ class LaunchService:
             self.__loop.call_soon_threadsafe(self.__context.emit_event_sync, event)
 
     def include_launch_description(self, launch_description: LaunchDescription) -> None:
-        """Visit a launch description. This may be called from any thread, also while the service runs."""
+        """Visit a launch description. This may be called from any thread, even while the service runs."""
         self.emit_event(IncludeLaunchDescription(launch_description))
 
     def shutdown(self, *, force_sync: bool = False) -> asyncio.Future[Any] | None:

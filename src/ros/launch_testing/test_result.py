@@ -74,7 +74,7 @@ class FailResult(_ResultWithoutTests):
         self.failures += [(case, message) for case in self.testCases]
 
     def wasSuccessful(self) -> bool:
-        """Return False, also if the run has no tests."""
+        """Return False, even if the run has no tests."""
         return False
 
 

@@ -35,7 +35,7 @@ def parse_scalar(text: str) -> bool | int | float | str:
 
 
 def _integer(text: str) -> int | None:
-    """Return an integer as strtol reads it, also in hexadecimal or octal form; None above 64 bits."""
+    """Return an integer as strtol reads it, in decimal, hexadecimal or octal form; None above 64 bits."""
     found = _INTEGER.fullmatch(text)
     if found is None:
         return None

@@ -175,7 +175,7 @@ def _is_integer(value: Any) -> bool:
 
 
 def _to_python(value: Any) -> Any:
-    """Return NumPy's numbers and booleans as Python's, also in a list. Any other value itself."""
+    """Convert NumPy's numbers and booleans, also inside lists, to Python's; return any other value unchanged."""
     if type(value) in _PYTHON_TYPES:  # The usual case, and much faster.
         return value
     if isinstance(value, list | tuple):

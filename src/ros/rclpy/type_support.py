@@ -116,7 +116,7 @@ def check_is_valid_msg_type(msg_type: Any) -> None:
 
 
 def message_class(msg_type: Any) -> type[Any]:
-    """Return the message class, also if an instance of it was given, which upstream accepts.
+    """Return the message class, even if an instance of it was given, which upstream accepts.
 
     Raises:
         AttributeError, RuntimeError: See `check_is_valid_msg_type`.

@@ -92,7 +92,7 @@ class SequentialReader:
         return message
 
     def get_all_topics_and_types(self) -> list[TopicMetadata]:
-        """Return the topics of the recording, also those that the filter excludes."""
+        """Return the topics of the recording, including those that the filter excludes."""
         return [information.topic_metadata for information in self.get_metadata().topics_with_message_count]
 
     def get_metadata(self) -> BagMetadata:

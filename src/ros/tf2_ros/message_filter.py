@@ -175,7 +175,7 @@ class MessageFilter:
         self.set_target_frames([target_frame])
 
     def set_target_frames(self, target_frames: str | Iterable[str]) -> None:
-        """Replace the target frames, also for messages that are waiting already.
+        """Replace the target frames, including those of messages that are already waiting.
 
         Raises:
             TypeError: A frame name is not a string.

@@ -41,7 +41,7 @@ class Drawing:
         if self._markers.get_subscription_count() == 0:
             return
         if self._broadcaster is None:
-            # The frame of the markers must exist, also if the user's nodes do not publish transforms. Its child is in
+            # The frame of the markers must exist, even if the user's nodes do not publish transforms. Its child is in
             # the middle of the picture, which is where the viewer looks first.
             self._broadcaster = StaticTransformBroadcaster(self._node)
             transform = TransformStamped(child_frame_id=self._node.get_name())

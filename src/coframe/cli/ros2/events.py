@@ -164,7 +164,7 @@ def _text(message: Any, text_format: TextFormat) -> str:
 
 
 def _to_plain_data(value: Any) -> Any:
-    """Return ordered dictionaries as plain ones, also inside lists."""
+    """Return ordered dictionaries as plain ones, including inside lists."""
     if isinstance(value, dict):
         return {name: _to_plain_data(each) for name, each in value.items()}
     return [_to_plain_data(each) for each in value] if isinstance(value, list | tuple) else value

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Catalogues of gettext: PO files, read without compiling them, so that a translator sees a change at once."""
+"""Catalogues of gettext: PO files, read without compiling them, so that a translator sees a change immediately."""
 
 from __future__ import annotations
 

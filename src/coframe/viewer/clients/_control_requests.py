@@ -54,7 +54,9 @@ def _execute(control: GraphControl, request: client_messages.ControlGraph) -> tu
 def _require_control(client: ClientState) -> GraphControl:
     control = client.viewer.control
     if control is None:
-        raise BadRequestError("this viewer is not allowed to act on the graph", "Start it with `coframe view --control`.")
+        raise BadRequestError(
+            "this viewer is not allowed to act on the graph", "Start it with `coframe view --control`."
+        )
     return control
 
 

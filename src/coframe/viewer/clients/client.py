@@ -135,7 +135,7 @@ class Client:
             self._send_updates(now)
 
     def pulse(self, now: float) -> None:
-        """Send a pulse once per second, also while the page draws: without one, it concludes that the server stopped.
+        """Send a pulse once per second, even while the page draws: without one, it concludes that the server stopped.
 
         Args:
             now: The time of the monotonic clock.
@@ -205,7 +205,7 @@ class Client:
             self._socket.send(encode(answer))
 
     async def _answers(self, request: _Request) -> list[ServerMessage]:
-        """Return the answer; that to a request that fails is its error, also on the display that it concerns."""
+        """Return the answer; that to a request that fails is its error, including on the display that it concerns."""
         if isinstance(request, BadRequestError):
             return _failure_answers(str(request), request.hint, request.display)
         display = request.id if isinstance(request, Subscribe) else None

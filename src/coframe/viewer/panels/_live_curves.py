@@ -158,7 +158,7 @@ class TopicCurve(LiveCurve):
         return self._error or super().status
 
     def poll(self) -> None:
-        """Process new messages, also for the other curves of the topic."""
+        """Process new messages for all curves of the topic."""
         self._problem = None if self._arrivals.problem is None else CurveState("waiting", self._arrivals.problem)
         self._arrivals.poll()
 
@@ -226,7 +226,7 @@ class EdgeDelayCurve(TopicCurve):
         self._connection = connection
 
     def poll(self) -> None:
-        """Process new messages, also for the other curves of the topic."""
+        """Process new messages for all curves of the topic."""
         super().poll()
         try:
             check_edge(self._expression, self._connection.buffer)

@@ -40,7 +40,7 @@ def message_rows(topic: str, message: Any) -> list[InspectedField]:
 
 
 def value_rows(message: Any) -> Iterator[InspectedField]:
-    """Yield the fields that have a value of their own, also those of nested messages. A sequence is one value."""
+    """Yield the fields that have a value of their own, including those of nested messages. A sequence is one value."""
     yield from _own_values(message, "", 0)
 
 

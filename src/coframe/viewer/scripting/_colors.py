@@ -67,7 +67,7 @@ def parse_colors(value: Any, count: int, argument: str = "colors", each: str = "
 
 
 def parse_vertex_colors(value: Any, count: int) -> NDArray[np.uint8]:
-    """Return the colors of `count` vertices as :func:`parse_colors` does, also from an array (N, 2, 3) for lines."""
+    """Return the colors of `count` vertices as :func:`parse_colors` does; for lines also from an array (N, 2, 3)."""
     if value is None:
         return parse_colors(None, count)
     colors = _bytes(value, "colors")

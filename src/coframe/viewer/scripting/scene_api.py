@@ -64,7 +64,7 @@ class SceneApi:
     """Draws points, lines, meshes, text, images and axes in the scene. Any thread may use it.
 
     Names are paths: ``mount/cloud`` is below ``mount``, moves with it, and is hidden and removed with it. Adding a name
-    again replaces the node. All pages show the same nodes, also those that are opened later.
+    again replaces the node. All pages show the same nodes, including those that are opened later.
 
     Every ``add_`` method also takes:
 

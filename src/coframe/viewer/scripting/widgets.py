@@ -151,7 +151,7 @@ class WidgetStore(RecordStore[WidgetRecord]):
             if record is None:
                 return ""  # The page does not know yet that it was removed.
             value = None if record.disabled else _value_of(record, use)
-            # All pages receive the value that is valid now, also the one that sent another.
+            # All pages receive the value that is valid now, including the one that sent another.
             self.change(record.id, value=record.value if value is None else value)
             if record.disabled:
                 return f"{record.label!r} is disabled"

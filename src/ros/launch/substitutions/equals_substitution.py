@@ -25,7 +25,7 @@ _TRUTH = {"true": True, "1": True, "false": False, "0": False}
 
 @expose_substitution("equals")
 class EqualsSubstitution(Substitution):
-    """Whether two strings are equal, also as booleans or numbers."""
+    """Whether two strings are equal, even as booleans or numbers."""
 
     def __init__(self, left: Any, right: Any) -> None:
         self.__left = _normalize(left)
@@ -70,7 +70,7 @@ class EqualsSubstitution(Substitution):
 
 @expose_substitution("not-equals")
 class NotEqualsSubstitution(EqualsSubstitution):
-    """Whether two strings differ, also as booleans and numbers."""
+    """Whether two strings differ, even as booleans and numbers."""
 
     def perform(self, context: LaunchContext) -> str:
         """Return ``true`` or ``false``."""

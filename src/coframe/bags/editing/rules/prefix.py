@@ -18,7 +18,7 @@ __all__ = ["Prefix"]
 
 
 class Prefix(Rule):
-    """``prefix robot1/ keep map,world``: prefix all frames except the shared ones, also in robot descriptions."""
+    """``prefix robot1/ keep map,world``: prefix all frames except the shared ones, including in robot descriptions."""
 
     name = "prefix"
     form = "PREFIX [keep FRAME,FRAME]"

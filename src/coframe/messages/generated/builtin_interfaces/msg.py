@@ -10,7 +10,7 @@ from coframe.messages.message import Message, set_fields
 
 
 class Duration(Message):
-    """A duration; nanosec is added to sec, also if sec is negative."""
+    """A duration; nanosec is added to sec, even if sec is negative."""
 
     ROS_TYPE = "builtin_interfaces/msg/Duration"
     SLOT_TYPES = (
