@@ -53,7 +53,7 @@ def angle_of(message: Any) -> float:
 
 
 class Formula(NamedTuple):
-    """A formula of the quaternion of a joint, correct or with a usual mistake.
+    """A formula of the quaternion of a joint, correct or with a common mistake.
 
     Attributes:
         cause: The mistake, or "" for the correct formula.
@@ -86,7 +86,7 @@ _FORMULAS = (
 
 
 class _Law(NamedTuple):
-    """A formula of the angle over time, correct or with a usual mistake."""
+    """A formula of the angle over time, correct or with a common mistake."""
 
     cause: str
     angles: Callable[[int, Array], Array]

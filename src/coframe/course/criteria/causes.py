@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Causes of lost points, found by trying: a usual mistake is named only if it explains what was observed.
+"""Causes of lost points, found by trying: a common mistake is named only if it explains what was observed.
 
-All functions return "" if no usual mistake fits. The report then prints no cause.
+All functions return "" if no common mistake fits. The report then prints no cause.
 """
 
 from __future__ import annotations

@@ -217,7 +217,7 @@ def _pose_cause(task: Task, robot: SimulatedRobot, poses: list[Received]) -> str
 
 
 def _pose_trials(task: Task, robot: SimulatedRobot, poses: list[Received]) -> Iterator[tuple[str, list[Transform]]]:
-    """Yield each usual mistake with the poses that it would give."""
+    """Yield each common mistake with the poses that it would give."""
     found = [read_pose(each.message) for each in poses]
     stamps = [stamp_ns(each.message) for each in poses]
     truth = [robot.end_effector(stamp) for stamp in stamps]

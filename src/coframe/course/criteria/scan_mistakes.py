@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find the mistake in a wrong cloud by trying: each usual mistake is applied to the scan, and compared."""
+"""Find the mistake in a wrong cloud by trying: each common mistake is applied to the scan, and compared."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def filter_mistake(scan: LaserScan, count: int) -> str:
 
 
 def cloud_mistake(pairs: Sequence[tuple[SentScan, Array]]) -> str:
-    """Return the mistake that explains all wrong clouds, or "" if no usual mistake does.
+    """Return the mistake that explains all wrong clouds, or "" if no common mistake does.
 
     Args:
         pairs: Scans, and the published points, shape (N, 3).
@@ -107,7 +107,7 @@ def _agree(expected: Array, found: Array) -> bool:
 
 
 def _trials(scan: SentScan) -> Iterator[tuple[str, Array]]:
-    """Yield each usual mistake with the cloud that it would give."""
+    """Yield each common mistake with the cloud that it would give."""
     used = valid_beams(scan.message)
     ranges, angles = ranges_and_angles(scan.message)
     flat = _points(ranges[used], angles[used])
@@ -142,7 +142,7 @@ def _trials(scan: SentScan) -> Iterator[tuple[str, Array]]:
 def _angle_mistakes(
     scan: LaserScan, used: NDArray[np.bool_], ranges: Array, angles: Array
 ) -> Iterator[tuple[str, Array]]:
-    """Yield each usual mistake in the angles with the points in the frame of the lidar."""
+    """Yield each common mistake in the angles with the points in the frame of the lidar."""
     kept, right = ranges[used], angles[used]
     yield "the angles are not filtered with the ranges: use the same beams of both", _points(kept, angles[: len(kept)])
     yield "the angles do not begin at angle_min", _points(kept, right - scan.angle_min)
