@@ -42,7 +42,7 @@ std::string_view text(nb::handle name) {
 
 std::int64_t to_int64(nb::handle number) {
   std::int64_t quick;
-  if (quick_int64(number.ptr(), quick)) return quick;
+  if (to_int64_if_exact(number.ptr(), quick)) return quick;
   int overflow;
   const long long value = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
   if (overflow != 0) {
@@ -62,7 +62,7 @@ Stamp to_stamp(nb::handle stamp) {
 std::int64_t to_duration(nb::handle duration) {
   if (duration.is_none()) return 0;
   std::int64_t nanoseconds;
-  if (quick_int64(duration.ptr(), nanoseconds) && !is_meant_as_seconds(nanoseconds)) return nanoseconds;
+  if (to_int64_if_exact(duration.ptr(), nanoseconds) && !is_meant_as_seconds(nanoseconds)) return nanoseconds;
   if (PyUnicode_CheckExact(duration.ptr())) {
     return known_durations.find(duration.ptr(), [](PyObject* text) { return converted("duration_ns", text); });
   }
@@ -70,9 +70,9 @@ std::int64_t to_duration(nb::handle duration) {
 }
 
 bool is_true(PyObject* object) {
-  const int truth = object ? PyObject_IsTrue(object) : 0;
-  if (truth < 0) throw nb::python_error();
-  return truth != 0;
+  const int is_true = object ? PyObject_IsTrue(object) : 0;
+  if (is_true < 0) throw nb::python_error();
+  return is_true != 0;
 }
 
 LookupQuery query_of(BufferObject& buffer, nb::handle target, nb::handle source, nb::handle stamp) {

@@ -24,7 +24,7 @@ BufferObject& buffer_of(nb::handle object);
 
 // Reads an exact int that fits. Returns false for everything else, without an exception. A stamp has three digits of
 // CPython's int, and CPython's own conversion would take as long as the lookup itself.
-inline bool quick_int64(PyObject* number, std::int64_t& value) {
+inline bool to_int64_if_exact(PyObject* number, std::int64_t& value) {
   if (!PyLong_CheckExact(number)) return false;
 #if PyLong_SHIFT == 30 && PY_VERSION_HEX < 0x030E0000
   const auto* object = reinterpret_cast<const PyLongObject*>(number);

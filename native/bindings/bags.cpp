@@ -45,9 +45,9 @@ nb::tuple ingest_slices(nb::handle buffer, nb::handle data, nb::handle starts, n
   const std::size_t count = first.size() / sizeof(std::uint64_t);
   if (first.size() != last.size()) throw nb::value_error("as many ends as starts are wanted");
   self.stop_sharing();
-  const AuthorityId who = self.authority(authority.ptr());
+  const AuthorityId authority_id = self.authority(authority.ptr());
   const nb::ft_lock_guard lock(self.ingesting);
-  TransformStream& stream = self.stream(is_static, who, encoding_of(encoding), renaming);
+  TransformStream& stream = self.stream(is_static, authority_id, encoding_of(encoding), renaming);
   std::size_t damaged = 0;
   const char* reason = "";
   for (std::size_t i = 0; i < count; ++i) {

@@ -21,10 +21,10 @@ nb::tuple set_rows(BufferObject& self, std::string_view parent, std::string_view
   const std::size_t count = times.size() / sizeof(Stamp);
   const Track track{parent, child, count, times.data<const Stamp>(), rows_of(places, 7, count)};
   self.stop_sharing();
-  const AuthorityId who = self.authority(authority.ptr());
+  const AuthorityId authority_id = self.authority(authority.ptr());
   std::size_t stored, bad_row;
   unsigned refusals;
-  const auto run = [&] { refusals = self.core->insert_many(track, is_static, who, stored, bad_row); };
+  const auto run = [&] { refusals = self.core->insert_many(track, is_static, authority_id, stored, bad_row); };
   if (count > kLargeBatch) {
     const WithoutGil release;
     run();
@@ -74,7 +74,7 @@ PyObject* py_set_plain(PyObject* object, PyObject* const* arguments, Py_ssize_t 
     const bool is_plain = parent != 0 && child != 0 && parent != child && values[4] == Py_False &&
                           read_transform(values[2], given) && is(given.target, values[0]) &&
                           is(given.source, values[1]) && !self.core->frozen();
-    const bool has_time = values[3] == Py_None ? given.has_stamp : quick_int64(values[3], given.stamp);
+    const bool has_time = values[3] == Py_None ? given.has_stamp : to_int64_if_exact(values[3], given.stamp);
     if (!is_plain || !has_time) return Py_NewRef(Py_None);
     const double *p = given.pose.p, *q = given.pose.q;
     const TransformValues transform{{p[0], p[1], p[2]}, {q[0], q[1], q[2], q[3]}};

@@ -37,11 +37,11 @@ bool wait_for_shared(const Buffer& core, LookupQuery& query, std::int64_t timeou
   return wait_with_signals(timeout_ns, [&](std::int64_t slice) {
     const auto end = clock::now() + std::chrono::nanoseconds(slice);
     for (;;) {
-      const std::uint64_t seen = core.changes();
+      const std::uint64_t seen_changes = core.changes();
       if (core.lookup_by_name(query, result, failure)) return true;
-      const std::int64_t left = (end - clock::now()) / std::chrono::nanoseconds(1);
-      if (left <= 0) return false;
-      core.wait_for_change(seen, left);
+      const std::int64_t remaining_ns = (end - clock::now()) / std::chrono::nanoseconds(1);
+      if (remaining_ns <= 0) return false;
+      core.wait_for_change(seen_changes, remaining_ns);
     }
   });
 }
@@ -86,7 +86,7 @@ struct PlainQuery {
     target = target_frame;
     source = source_frame;
     if (target == 0 || source == 0 || target == source) return false;
-    return !when || when == Py_None || quick_int64(when, stamp);
+    return !when || when == Py_None || to_int64_if_exact(when, stamp);
   }
 };
 

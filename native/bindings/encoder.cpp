@@ -22,7 +22,7 @@ PyTypeObject* type_of_numbers(const char* module, const char* name) {
 template <class Integer>
 bool put_integer(PyObject* value, Output& out) {
   std::int64_t number;
-  if (!quick_int64(value, number) || !std::in_range<Integer>(number)) return false;
+  if (!to_int64_if_exact(value, number) || !std::in_range<Integer>(number)) return false;
   out.put(static_cast<Integer>(number));
   return true;
 }

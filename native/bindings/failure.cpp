@@ -68,11 +68,13 @@ bool has_window(ErrorCode code) {
 
 bool has_edge(ErrorCode code) { return has_window(code) || code == ErrorCode::no_data; }
 
-nb::object stamp_or_none(bool applies, Stamp stamp) { return applies ? nb::object(nb::int_(stamp)) : nb::none(); }
+nb::object stamp_or_none(bool is_available, Stamp stamp) {
+  return is_available ? nb::object(nb::int_(stamp)) : nb::none();
+}
 
 // A frame of the failed leg; with a fixed frame, it need not be one of the requested frames.
-nb::object frame_name(const FailureObject& object, FrameId frame, const nb::object& asked) {
-  if (frame == 0) return asked;
+nb::object frame_name(const FailureObject& object, FrameId frame, const nb::object& requested_name) {
+  if (frame == 0) return requested_name;
   const std::string name = object.buffer->name(frame);
   return nb::str(name.data(), name.size());
 }
@@ -112,15 +114,16 @@ nb::object roots(const FailureObject& object) {
 nb::object name(const FailureObject& object) { return name_of(object.failure.name); }
 
 // Whether no further transforms are expected: the buffer is frozen, or keeps everything, as recordings do.
-nb::object recorded(const FailureObject& object) {
+nb::object is_complete(const FailureObject& object) {
   return nb::bool_(object.buffer->frozen() || object.buffer->cache_length() < 0);
 }
 
 // The current parents of all frames; "" for frames without one.
 nb::object parents(const FailureObject& object) {
-  nb::dict all;
-  for (const FrameSummary& frame : object.buffer->frames()) all[name_of(frame.name)] = name_of(frame.parent);
-  return all;
+  nb::dict parents_by_name;
+  for (const FrameSummary& frame : object.buffer->frames())
+    parents_by_name[name_of(frame.name)] = name_of(frame.parent);
+  return parents_by_name;
 }
 
 FailureObject& failure_of(PyObject* object) { return reinterpret_cast<Object*>(object)->failure; }
@@ -150,7 +153,7 @@ PyGetSetDef failure_properties[] = {{"code", &get<&code>, nullptr, nullptr, null
                                     {"edge", &get<&edge>, nullptr, nullptr, nullptr},
                                     {"roots", &get<&roots>, nullptr, nullptr, nullptr},
                                     {"name", &get<&name>, nullptr, nullptr, nullptr},
-                                    {"recorded", &get<&recorded>, nullptr, nullptr, nullptr},
+                                    {"recorded", &get<&is_complete>, nullptr, nullptr, nullptr},
                                     {"parents", &get<&parents>, nullptr, nullptr, nullptr},
                                     {nullptr, nullptr, nullptr, nullptr, nullptr}};
 

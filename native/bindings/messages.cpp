@@ -65,7 +65,9 @@ SlottedClass<4> quaternion;
 
 bool is_text(nb::handle object) { return object.is_valid() && PyUnicode_CheckExact(object.ptr()); }
 
-bool read_int(nb::handle object, std::int64_t& value) { return object.is_valid() && quick_int64(object.ptr(), value); }
+bool read_int(nb::handle object, std::int64_t& value) {
+  return object.is_valid() && to_int64_if_exact(object.ptr(), value);
+}
 
 bool read_time(nb::handle object, Stamp& stamp) {
   if (rclpy_time.is(object)) return read_int(rclpy_time.get(object, 0), stamp);
@@ -120,19 +122,19 @@ nb::object make_message(PyObject* target, PyObject* source, Stamp stamp, const P
     nanoseconds += kNanosecondsPerSecond;
     --seconds;
   }
-  nb::object when = nb::steal(time_message.make());
-  time_message.put(when.ptr(), 0, PyLong_FromLongLong(seconds));
-  time_message.put(when.ptr(), 1, PyLong_FromLongLong(nanoseconds));
-  nb::object head = nb::steal(header.make());
-  header.put(head.ptr(), 0, when.release().ptr());
-  header.put(head.ptr(), 1, Py_NewRef(target));
-  nb::object where = nb::steal(transform.make());
-  transform.put(where.ptr(), 0, make_numbers(vector3, pose.p).release().ptr());
-  transform.put(where.ptr(), 1, make_numbers(quaternion, pose.q).release().ptr());
+  nb::object stamp_message = nb::steal(time_message.make());
+  time_message.put(stamp_message.ptr(), 0, PyLong_FromLongLong(seconds));
+  time_message.put(stamp_message.ptr(), 1, PyLong_FromLongLong(nanoseconds));
+  nb::object header_message = nb::steal(header.make());
+  header.put(header_message.ptr(), 0, stamp_message.release().ptr());
+  header.put(header_message.ptr(), 1, Py_NewRef(target));
+  nb::object transform_message = nb::steal(transform.make());
+  transform.put(transform_message.ptr(), 0, make_numbers(vector3, pose.p).release().ptr());
+  transform.put(transform_message.ptr(), 1, make_numbers(quaternion, pose.q).release().ptr());
   nb::object message = nb::steal(transform_stamped.make());
-  transform_stamped.put(message.ptr(), 0, head.release().ptr());
+  transform_stamped.put(message.ptr(), 0, header_message.release().ptr());
   transform_stamped.put(message.ptr(), 1, Py_NewRef(source));
-  transform_stamped.put(message.ptr(), 2, where.release().ptr());
+  transform_stamped.put(message.ptr(), 2, transform_message.release().ptr());
   return message;
 }
 

@@ -103,20 +103,20 @@ std::size_t poses_near(nb::handle poses, nb::handle states, nb::handle origin, P
       local.size() != 3 * sizeof(double)) {
     throw nb::value_error("poses (N, 7) float64, states (N,) uint8, origin (3,) float64, near (N, 7) float32");
   }
-  std::size_t far = 0;
+  std::size_t far_count = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const double* pose = rows.data<double>() + 7 * i;
-    float* small = out.data<float>() + 7 * i;
+    float* local_pose = out.data<float>() + 7 * i;
     double distance = 0;
     for (std::size_t axis = 0; axis < 7; ++axis) {
       const double value = axis < 3 ? pose[axis] - local.data<double>()[axis] : pose[axis];
-      small[axis] = static_cast<float>(value);
+      local_pose[axis] = static_cast<float>(value);
       if (axis < 3 && std::isfinite(value)) distance = std::max(distance, std::abs(value));
     }
     const bool is_shown = states_memory.data<std::uint8_t>()[i] <= static_cast<std::uint8_t>(State::held);
-    if (is_shown && distance > limit && static_cast<Py_ssize_t>(i) != fixed) ++far;
+    if (is_shown && distance > limit && static_cast<Py_ssize_t>(i) != fixed) ++far_count;
   }
-  return far;
+  return far_count;
 }
 
 }  // namespace

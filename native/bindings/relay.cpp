@@ -30,17 +30,17 @@ nb::str to_str(const std::string& name) {
 
 void add(Relay& self, Relay::SourceId source, Relay::WriterId writer, nb::bytes message, std::int64_t at) {
   if (source >= self.sources()) throw nb::index_error("no source with this number");
-  const std::int64_t steady = at < 0 ? now<std::chrono::steady_clock>() : at;
-  self.add(source, writer, reinterpret_cast<const std::uint8_t*>(message.c_str()), message.size(), steady,
+  const std::int64_t steady_time = at < 0 ? now<std::chrono::steady_clock>() : at;
+  self.add(source, writer, reinterpret_cast<const std::uint8_t*>(message.c_str()), message.size(), steady_time,
            now<std::chrono::system_clock>());
 }
 
-void create(Relay* self, bool is_static, std::int64_t period, std::optional<std::pair<double, double>> most) {
-  if (!most) {
+void create(Relay* self, bool is_static, std::int64_t period, std::optional<std::pair<double, double>> max_error) {
+  if (!max_error) {
     new (self) Relay(is_static, period);
     return;
   }
-  const MaxError error{most->first, most->second};
+  const MaxError error{max_error->first, max_error->second};
   if (!(error.distance >= 0.0) || !(error.angle >= 0.0 && error.angle <= MaxError::kMaxAngle)) {
     throw nb::value_error("the maximum error must not be negative, and its angle at most 45 degrees");
   }
@@ -80,8 +80,8 @@ nb::list relay_writers(const Relay& self, Relay::SourceId source) {
 
 nb::tuple writer_tuple(std::uint64_t writer, std::uint64_t messages, std::int64_t received_at,
                        const ArrivalPeriod& period, const StampDelay& delay, const NameProblems& name_problems) {
-  const nb::object behind = delay.known() ? nb::object(nb::int_(delay.typical())) : nb::object(nb::none());
-  return nb::make_tuple(writer, messages, received_at, period.median(), behind, to_str(name_problems.slashed),
+  const nb::object stamp_delay = delay.known() ? nb::object(nb::int_(delay.typical())) : nb::object(nb::none());
+  return nb::make_tuple(writer, messages, received_at, period.median(), stamp_delay, to_str(name_problems.slashed),
                         to_str(name_problems.prefixed), to_str(name_problems.plain));
 }
 

@@ -53,7 +53,7 @@ class JointTreeObject {
       children_.push_back(nb::borrow(joint[3]));
     }
     std::vector<JointDescription> descriptions;
-    for (nb::handle joint : joints) descriptions.push_back(described(joint));
+    for (nb::handle joint : joints) descriptions.push_back(description_of(joint));
     tree_ = JointTree(descriptions);
   }
 
@@ -92,16 +92,16 @@ class JointTreeObject {
     if (rows.size() / sizeof(double) / 7 != tree_.size() * count || rows.size() % (7 * sizeof(double)) != 0) {
       throw nb::value_error("out must have 7 float64 for each joint in each configuration");
     }
-    std::list<StridedDoubles> held;
+    std::list<StridedDoubles> arrays;
     std::vector<JointPositions> given(tree_.size());
     for (nb::handle pair : positions) {
       const auto joint = nb::cast<std::size_t>(nb::object(rows_[pair[0]]));
-      given[joint] = held.emplace_back(pair[1]).positions(count, position_size(tree_.kind(joint)));
+      given[joint] = arrays.emplace_back(pair[1]).positions(count, position_size(tree_.kind(joint)));
     }
-    std::size_t bad;
+    std::size_t invalid_joint;
     without_gil_if(threads > 1 || tree_.size() * count > kManyPoses,
-                   [&] { bad = tree_.poses(given, count, in_root, threads, rows.data<double>()); });
-    return bad == tree_.size() ? nb::none() : names_[bad];
+                   [&] { invalid_joint = tree_.poses(given, count, in_root, threads, rows.data<double>()); });
+    return invalid_joint == tree_.size() ? nb::none() : names_[invalid_joint];
   }
 
  private:
@@ -129,7 +129,7 @@ class JointTreeObject {
     Py_buffer view_;
   };
 
-  JointDescription described(nb::handle joint) const {
+  JointDescription description_of(nb::handle joint) const {
     JointDescription found;
     found.kind = kind_of(nb::cast<std::string_view>(nb::object(joint[1])));
     if (behind_.contains(joint[2])) found.parent = nb::cast<std::ptrdiff_t>(nb::object(behind_[joint[2]]));

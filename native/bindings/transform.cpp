@@ -142,9 +142,9 @@ namespace {
 
 bool is_same(PyObject* a, PyObject* b) {
   if (a == b) return true;
-  const int same = PyObject_RichCompareBool(a, b, Py_EQ);
-  if (same < 0) throw nb::python_error();
-  return same == 1;
+  const int is_equal = PyObject_RichCompareBool(a, b, Py_EQ);
+  if (is_equal < 0) throw nb::python_error();
+  return is_equal == 1;
 }
 
 void normalize_rotation(Pose& pose) {

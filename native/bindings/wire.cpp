@@ -102,23 +102,23 @@ nb::list take_messages(PyReader& reader, std::uint32_t limit, const MessageCodec
 }
 
 nb::tuple take_tapped(PyTap& tap) {
-  Tap::Messages tapped;
+  Tap::Messages messages;
   {
     WithoutGil release;
-    tapped = tap.take();
+    messages = tap.take();
   }
-  return nb::make_tuple(nb::bytes(tapped.bytes.data(), tapped.bytes.size()), array_bytes(tapped.ends),
-                        array_bytes(tapped.arrived), array_bytes(tapped.sent), array_bytes(tapped.writers));
+  return nb::make_tuple(nb::bytes(messages.bytes.data(), messages.bytes.size()), array_bytes(messages.ends),
+                        array_bytes(messages.arrived), array_bytes(messages.sent), array_bytes(messages.writers));
 }
 
 nb::list writers_of(const TransformStore& store) {
-  std::vector<TransformStore::WriterStatistics> all;
+  std::vector<TransformStore::WriterStatistics> statistics;
   {
     WithoutGil release;
-    all = store.writers();
+    statistics = store.writers();
   }
   nb::list list;
-  for (const auto& [writer, messages, received_at, period, delay, name_problems] : all) {
+  for (const auto& [writer, messages, received_at, period, delay, name_problems] : statistics) {
     list.append(writer_tuple(writer, messages, received_at, period, delay, name_problems));
   }
   return list;

@@ -16,15 +16,15 @@ namespace {
 
 // The large arenas that were freed last, kept for reuse: the system takes longer to clear a large page than the caller
 // takes to fill it.
-struct Spare {
+struct SpareArenas {
   std::mutex mutex;
   std::array<std::byte*, 4> arenas;
   std::size_t count = 0;
 };
 
-Spare& spare() {
-  static Spare& spare = *new Spare;  // never destroyed: buffers may outlive static objects
-  return spare;
+SpareArenas& spare_arenas() {
+  static SpareArenas& spare_arenas = *new SpareArenas;  // never destroyed: buffers may outlive static objects
+  return spare_arenas;
 }
 
 std::byte* allocate(std::size_t size, std::size_t alignment) {
@@ -35,9 +35,9 @@ std::byte* allocate(std::size_t size, std::size_t alignment) {
 // up to half as much memory again.
 #if __has_include(<sys/mman.h>)
 std::byte* map_large() {
-  void* mapped = mmap(nullptr, 2 * Arena::kLarge, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (mapped == MAP_FAILED) throw std::bad_alloc();
-  auto* start = static_cast<std::byte*>(mapped);
+  void* mapping = mmap(nullptr, 2 * Arena::kLarge, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (mapping == MAP_FAILED) throw std::bad_alloc();
+  auto* start = static_cast<std::byte*>(mapping);
   const std::size_t before = -reinterpret_cast<std::uintptr_t>(start) % Arena::kLarge;
   if (before > 0) munmap(start, before);
   munmap(start + before + Arena::kLarge, Arena::kLarge - before);
@@ -53,16 +53,16 @@ void unmap_large(std::byte* data) { ::operator delete(data, std::align_val_t{Are
 #endif
 
 std::byte* allocate_large() {
-  Spare& kept = spare();
-  const std::lock_guard lock(kept.mutex);
-  return kept.count > 0 ? kept.arenas[--kept.count] : map_large();
+  SpareArenas& spares = spare_arenas();
+  const std::lock_guard lock(spares.mutex);
+  return spares.count > 0 ? spares.arenas[--spares.count] : map_large();
 }
 
 void free_large(std::byte* data) {
-  Spare& kept = spare();
-  const std::lock_guard lock(kept.mutex);
-  if (kept.count < kept.arenas.size()) {
-    kept.arenas[kept.count++] = data;
+  SpareArenas& spares = spare_arenas();
+  const std::lock_guard lock(spares.mutex);
+  if (spares.count < spares.arenas.size()) {
+    spares.arenas[spares.count++] = data;
   } else {
     unmap_large(data);
   }

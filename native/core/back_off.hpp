@@ -7,10 +7,10 @@
 namespace coframe {
 
 // Pauses a thread that waits for a few instructions of another one, which may have been descheduled and then needs the
-// processor. `turn` counts the calls of one wait.
-inline void back_off(int turn) {
-  if (turn < 50) return;
-  if (turn < 500) return std::this_thread::yield();
+// processor. `attempt` counts the calls of one wait.
+inline void back_off(int attempt) {
+  if (attempt < 50) return;
+  if (attempt < 500) return std::this_thread::yield();
   std::this_thread::sleep_for(std::chrono::microseconds(50));
 }
 

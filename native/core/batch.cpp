@@ -46,9 +46,9 @@ class Finder {
     std::uint64_t next = first, inner = 0;  // number of stamps strictly inside the interval
     for (std::size_t row = 0; row < count; ++row) {
       const Stamp stamp = stamps[row];
-      const std::uint64_t past = static_cast<std::uint64_t>(stamp) - static_cast<std::uint64_t>(found.start);
-      if (past - 1 < inner) {
-        put(found, static_cast<double>(static_cast<std::int64_t>(past)) * per_nanosecond, per_nanosecond, row);
+      const std::uint64_t elapsed = static_cast<std::uint64_t>(stamp) - static_cast<std::uint64_t>(found.start);
+      if (elapsed - 1 < inner) {
+        put(found, static_cast<double>(static_cast<std::int64_t>(elapsed)) * per_nanosecond, per_nanosecond, row);
       } else if (search_.covers(stamp)) {
         next = search_.next(stamp, next);
         found = search_.interval(next);
@@ -179,12 +179,12 @@ Twist rate_between(const Sample& a, const Sample& b, double seconds) {
   Twist rate;
   for (int i = 0; i < 3; ++i) rate.linear[i] = (b.pose.p[i] - a.pose.p[i]) / seconds;
   const double conjugate[4] = {-a.pose.q[0], -a.pose.q[1], -a.pose.q[2], a.pose.q[3]};
-  double turn[4];
-  multiply(b.pose.q, conjugate, turn);
-  const double sign = turn[3] < 0.0 ? -1.0 : 1.0;
-  const double sine = std::sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2]);
-  const double scale = sine > 0.0 ? sign * 2.0 * std::atan2(sine, sign * turn[3]) / (sine * seconds) : 0.0;
-  for (int i = 0; i < 3; ++i) rate.angular[i] = scale * turn[i];
+  double rotation[4];
+  multiply(b.pose.q, conjugate, rotation);
+  const double sign = rotation[3] < 0.0 ? -1.0 : 1.0;
+  const double sine = std::sqrt(rotation[0] * rotation[0] + rotation[1] * rotation[1] + rotation[2] * rotation[2]);
+  const double scale = sine > 0.0 ? sign * 2.0 * std::atan2(sine, sign * rotation[3]) / (sine * seconds) : 0.0;
+  for (int i = 0; i < 3; ++i) rate.angular[i] = scale * rotation[i];
   return rate;
 }
 
@@ -265,7 +265,7 @@ std::vector<std::uint32_t> order_by_time(const Stamp* stamps, std::size_t count)
   const Stamp start = *first;
   const double scale = static_cast<double>(kBuckets * kBuckets - 1) / static_cast<double>(distance(start, *last));
   const auto places = std::make_unique_for_overwrite<std::uint32_t[]>(count);
-  const auto half = std::make_unique_for_overwrite<Place[]>(count);
+  const auto half_sorted = std::make_unique_for_overwrite<Place[]>(count);
   std::array<std::uint32_t, kBuckets + 1> lower{}, upper{};
   for (std::size_t row = 0; row < count; ++row) {
     const auto place = static_cast<std::uint32_t>(
@@ -278,9 +278,10 @@ std::vector<std::uint32_t> order_by_time(const Stamp* stamps, std::size_t count)
     lower[i] += lower[i - 1];
     upper[i] += upper[i - 1];
   }
-  for (std::uint32_t row = 0; row < count; ++row) half[lower[places[row] % kBuckets]++] = {row, places[row] / kBuckets};
+  for (std::uint32_t row = 0; row < count; ++row)
+    half_sorted[lower[places[row] % kBuckets]++] = {row, places[row] / kBuckets};
   std::vector<std::uint32_t> order(count);
-  for (std::size_t i = 0; i < count; ++i) order[upper[half[i].upper]++] = half[i].row;
+  for (std::size_t i = 0; i < count; ++i) order[upper[half_sorted[i].upper]++] = half_sorted[i].row;
   return order;
 }
 

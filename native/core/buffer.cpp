@@ -18,21 +18,21 @@ void Buffer::clear() {
     if (refusal_.load() != 0) return;
     tree_.clear();
   }
-  Inserted cleared;
-  cleared.rewired = true;  // the next insertions may build another tree
-  announce(&cleared, 1);
+  Inserted inserted;
+  inserted.rewired = true;  // the next insertions may build another tree
+  announce(&inserted, 1);
 }
 
 bool Buffer::remove_frame(std::string_view name) {
-  Inserted removed;
+  Inserted inserted;
   {
     const std::lock_guard lock(writing_);
     const FrameId frame = tree_.find(name);
     if (frame == 0 || refusal_.load() != 0) return false;
     tree_.remove(frame);
-    removed.rewired = true;
+    inserted.rewired = true;
   }
-  announce(&removed, 1);
+  announce(&inserted, 1);
   return true;
 }
 
@@ -46,7 +46,7 @@ bool Buffer::follow(SharedTreeData shared) {
     const std::lock_guard lock(writing_);
     if (refusal_.load() != 0 || tree_.frame_count() > 1) return false;
     refusal_.store(kShared);
-    tree_.become(std::move(shared));
+    tree_.switch_to(std::move(shared));
     follower_.emplace(tree_, wait_queue_);
   }
   notify_of_other_data();
@@ -65,9 +65,9 @@ void Buffer::stop_following() {
 }
 
 void Buffer::notify_of_other_data() {
-  Inserted all;
-  all.new_names = all.rewired = true;
-  notify(&all, 1);
+  Inserted inserted;
+  inserted.new_names = inserted.rewired = true;
+  notify(&inserted, 1);
 }
 
 void Buffer::pause_reading(int attempt) {

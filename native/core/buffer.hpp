@@ -152,9 +152,9 @@ class Buffer {
   }
   // The frames that have a static transform.
   std::vector<FrameId> static_frames() const;
-  // Waits until the shared data have changed since `seen`, or `timeout_ns` has passed. May return earlier.
-  void wait_for_change(std::uint64_t seen, std::int64_t timeout_ns) const {
-    if (SharedAccess* access = tree_.access()) access->wait_for_change(seen, timeout_ns);
+  // Waits until the shared data have changed since `known_changes`, or `timeout_ns` has passed. May return earlier.
+  void wait_for_change(std::uint64_t known_changes, std::int64_t timeout_ns) const {
+    if (SharedAccess* access = tree_.access()) access->wait_for_change(known_changes, timeout_ns);
   }
 
   FrameId find(std::string_view name) const { return tree_.find(name); }

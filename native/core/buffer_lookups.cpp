@@ -44,18 +44,18 @@ bool Buffer::lookup_by_walking(FrameId target, FrameId source, Stamp& stamp, Pos
 
 bool Buffer::lookup_by_id(PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
                           Failure& failure) const {
-  const Stamp asked = stamp;
-  return retry_until_stable(asked == 0, failure, [&] {
-    stamp = asked;
+  const Stamp requested_stamp = stamp;
+  return retry_until_stable(requested_stamp == 0, failure, [&] {
+    stamp = requested_stamp;
     return lookup_in_tree(tree_, paths, target, source, stamp, pose, failure);
   });
 }
 
 bool Buffer::lookup_cached_path(PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose) const {
   const std::uint64_t revision = tree_.start_reading();
-  Stamp when = stamp;
-  if (!lookup_path_in_tree(tree_, paths, target, source, when, pose) || !tree_.unchanged(revision)) return false;
-  stamp = when;
+  Stamp found_stamp = stamp;
+  if (!lookup_path_in_tree(tree_, paths, target, source, found_stamp, pose) || !tree_.unchanged(revision)) return false;
+  stamp = found_stamp;
   return true;
 }
 
@@ -77,9 +77,9 @@ bool Buffer::lookup_full_by_id(FrameId target, Stamp& target_stamp, FrameId sour
 
 bool Buffer::extrapolate_by_id(Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
                                Failure& failure) const {
-  const Stamp asked = stamp;
+  const Stamp requested_stamp = stamp;
   return consistent([&] {
-    stamp = asked;
+    stamp = requested_stamp;
     return extrapolate_in_tree(tree_, extrapolation, target, source, stamp, pose, failure);
   });
 }

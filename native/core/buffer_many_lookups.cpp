@@ -102,11 +102,11 @@ std::size_t Buffer::lookup_rows(LookupQuery query, const Extrapolation* extrapol
     }
     for (std::size_t i = 0; i < rows.count; ++i) {
       if (rows.ok[i]) continue;
-      Failure why;
-      if (lookup_row(query, extrapolation, batch, at[i], why)) continue;
+      Failure row_failure;
+      if (lookup_row(query, extrapolation, batch, at[i], row_failure)) continue;
       if (at[i] < missing) {
         missing = at[i];
-        failure = std::move(why);
+        failure = std::move(row_failure);
       }
       if (batch.missing != Batch::Missing::nan && !reorder) return missing;
     }
@@ -124,18 +124,18 @@ void Buffer::clip(const PathCache::Path& path, std::size_t count, Stamp* stamps)
 
 bool Buffer::lookup_row(LookupQuery& query, const Extrapolation* extrapolation, const Batch& batch, std::size_t row,
                         Failure& failure) const {
-  LookupResult one;
+  LookupResult result;
   query.stamp = batch.stamps[row];
   Extrapolation guess = extrapolation ? *extrapolation : Extrapolation{};
-  bool ok = lookup_by_name(query, one, failure, extrapolation ? &guess : nullptr);
+  bool ok = lookup_by_name(query, result, failure, extrapolation ? &guess : nullptr);
   if (ok && batch.twists) {
     Twist twist;
     if (query.target != query.source) {
       ok = read([&](const Tree& tree) {
         PathCache::Path path;
         Pose pose;
-        PathCache::walk_at(tree, query.target_id, query.source_id, one.stamp, path);
-        return path.usable && follow_moving(path, one.stamp, tree.along_screws(), pose, twist);
+        PathCache::walk_at(tree, query.target_id, query.source_id, result.stamp, path);
+        return path.usable && follow_moving(path, result.stamp, tree.along_screws(), pose, twist);
       });
     }
     std::copy_n(twist.linear, 3, batch.twists + 6 * row);
@@ -148,8 +148,8 @@ bool Buffer::lookup_row(LookupQuery& query, const Extrapolation* extrapolation, 
     if (batch.extrapolated) batch.extrapolated[row] = 0;
     return false;
   }
-  write_pose(one.pose, batch.poses + 7 * row);
-  batch.stamps[row] = one.stamp;
+  write_pose(result.pose, batch.poses + 7 * row);
+  batch.stamps[row] = result.stamp;
   if (batch.extrapolated) batch.extrapolated[row] = guess.furthest;
   return true;
 }

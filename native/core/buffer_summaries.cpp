@@ -51,20 +51,20 @@ FrameSummary summary_of(const Tree& tree, FrameId id) {
 
 std::vector<FrameSummary> Buffer::frames() const {
   return consistent([this] {
-    std::vector<FrameSummary> all;
+    std::vector<FrameSummary> summaries;
     for (FrameId id = 1; id < tree_.frame_count(); ++id) {
-      if (tree_.frame(id).known) all.push_back(summary_of(tree_, id));
+      if (tree_.frame(id).known) summaries.push_back(summary_of(tree_, id));
     }
-    return all;
+    return summaries;
   });
 }
 
 std::vector<EdgeSummary> Buffer::edges() const {
-  std::vector<EdgeSummary> all;
+  std::vector<EdgeSummary> summaries;
   for (FrameId id = 1; id < tree_.frame_count(); ++id) {
-    if (auto one = edge(id)) all.push_back(std::move(*one));
+    if (auto one = edge(id)) summaries.push_back(std::move(*one));
   }
-  return all;
+  return summaries;
 }
 
 std::optional<EdgeSummary> Buffer::edge(FrameId child) const {
@@ -75,8 +75,8 @@ std::optional<EdgeSummary> Buffer::edge(FrameId child) const {
     measure_intervals(tree_.history(child), one);
     return one;
   });
-  const bool has_something_to_tell = edge.frame.samples + edge.stored + edge.old + edge.self + edge.nan > 0;
-  if (!tree_.frame(child).known || !has_something_to_tell) return std::nullopt;
+  const bool has_statistics = edge.frame.samples + edge.stored + edge.old + edge.self + edge.nan > 0;
+  if (!tree_.frame(child).known || !has_statistics) return std::nullopt;
   return edge;
 }
 

@@ -88,9 +88,9 @@ class CdrReader {
   }
 
   bool align(std::size_t width) {
-    const std::size_t aligned = (position_ + width - 1) & ~(width - 1);
-    if (aligned > size_) return false;
-    position_ = aligned;
+    const std::size_t aligned_position = (position_ + width - 1) & ~(width - 1);
+    if (aligned_position > size_) return false;
+    position_ = aligned_position;
     return true;
   }
 

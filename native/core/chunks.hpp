@@ -157,7 +157,7 @@ class ChunkPool {
   Chunk* take(std::size_t length) {
     const std::lock_guard lock(mutex_);
     auto& free = supply(length).free;
-    ChunkHeader* header = free.empty() ? fresh(length) : free.back();
+    ChunkHeader* header = free.empty() ? create_chunk(length) : free.back();
     if (!free.empty()) free.pop_back();
     header->holders.store(1, std::memory_order_relaxed);
     return header->chunk();
@@ -192,7 +192,7 @@ class ChunkPool {
   };
 
   // Small buffers take little memory; large ones use large pages.
-  static constexpr std::size_t kFew = 16;
+  static constexpr std::size_t kFewChunks = 16;
   // Chunks leave this much of a limited memory for the names and the directories of new frames.
   static constexpr std::size_t kReserve = 4 << 20;
 
@@ -201,7 +201,7 @@ class ChunkPool {
     return supplies_[static_cast<std::size_t>(found - kChunkLengths.begin())];
   }
 
-  ChunkHeader* fresh(std::size_t length) {
+  ChunkHeader* create_chunk(std::size_t length) {
     const std::size_t bytes = ChunkHeader::bytes(length);
     if (memory_) {
       auto* chunk = ChunkHeader::create(memory_->take(bytes, alignof(ChunkHeader)), length);
@@ -212,9 +212,11 @@ class ChunkPool {
     Supply& chunks = supply(length);
     const std::size_t distance = ChunkHeader::distance(length), rest = bytes - distance;
     if (chunks.used == chunks.last_size) {
-      const std::size_t many = (Arena::kLarge - rest) / distance;
-      const std::size_t size = chunks.count < kFew ? std::max<std::size_t>(3 * chunks.count, 1) : many;
-      chunks.arenas.push_back(std::make_unique<Arena>(size == many ? Arena::kLarge : size * distance + rest));
+      const std::size_t large_arena_count = (Arena::kLarge - rest) / distance;
+      const std::size_t size =
+          chunks.count < kFewChunks ? std::max<std::size_t>(3 * chunks.count, 1) : large_arena_count;
+      chunks.arenas.push_back(
+          std::make_unique<Arena>(size == large_arena_count ? Arena::kLarge : size * distance + rest));
       chunks.last_size = size;
       chunks.used = 0;
     }

@@ -34,9 +34,10 @@ bool Event::wait(std::int64_t timeout_ns) {
     if (set_.exchange(0) != 0) return true;
     std::timespec limit{};
     if (timeout_ns >= 0) {
-      const std::int64_t left = std::chrono::duration_cast<std::chrono::nanoseconds>(end - clock::now()).count();
-      if (left <= 0) return false;
-      limit = {.tv_sec = left / kSecond, .tv_nsec = left % kSecond};
+      const std::int64_t remaining_ns =
+          std::chrono::duration_cast<std::chrono::nanoseconds>(end - clock::now()).count();
+      if (remaining_ns <= 0) return false;
+      limit = {.tv_sec = remaining_ns / kSecond, .tv_nsec = remaining_ns % kSecond};
     }
     const long code = syscall(SYS_futex, &set_, FUTEX_WAIT_PRIVATE, 0, timeout_ns < 0 ? nullptr : &limit, nullptr, 0);
     if (code != 0 && errno == EINTR) return set_.exchange(0) != 0;

@@ -28,9 +28,9 @@ Found Extrapolation::at(const History::View& samples, Stamp stamp, Pose& pose, F
   if (found == Found::ok || found == Found::empty) return found;
   const bool forward = found == Found::too_new || (found == Found::only_other && stamp > samples.time(0));
   const std::size_t end = forward ? samples.size() - 1 : 0;
-  const std::uint64_t beyond = distance(stamp, samples.time(end));
-  if (beyond > static_cast<std::uint64_t>(limit)) return found;
-  furthest = std::max(furthest, static_cast<Stamp>(beyond));
+  const std::uint64_t overshoot = distance(stamp, samples.time(end));
+  if (overshoot > static_cast<std::uint64_t>(limit)) return found;
+  furthest = std::max(furthest, static_cast<Stamp>(overshoot));
   const Sample last = samples.sample(end);
   pose = last.pose;
   parent = last.parent;
@@ -39,7 +39,7 @@ Found Extrapolation::at(const History::View& samples, Stamp stamp, Pose& pose, F
   Pose motion = last.pose;  // the end sample relative to its neighbor
   compose_inverse(samples.sample(before).pose, motion);
   const double step = static_cast<double>(distance(samples.time(end), samples.time(before)));
-  pose = part_of_motion(motion, static_cast<double>(beyond) / step);
+  pose = part_of_motion(motion, static_cast<double>(overshoot) / step);
   compose(last.pose, pose);
   return Found::ok;
 }

@@ -75,22 +75,22 @@ void ChangeFollower::remember() {
 // The number of changes is read first: later ones lead to another call.
 void ChangeFollower::notify() {
   changes_ = tree_.changes().load();
-  Inserted all;
+  Inserted inserted;
   const std::uint64_t version = tree_.version();
   const std::size_t frames = tree_.frame_count();
   if (version != version_ || frames != stored_.size()) {
     version_ = version;
-    all.new_names = all.rewired = true;
-    queue_.notify(all);
+    inserted.new_names = inserted.rewired = true;
+    queue_.notify(inserted);
   }
   stored_.resize(frames);
   for (FrameId id = 0; id < frames; ++id) {
     const std::uint64_t stored = tree_.frame(id).counts.stored;
     if (stored == stored_[id]) continue;
     stored_[id] = stored;
-    Inserted one;
-    one.child = id;
-    queue_.notify(one);
+    Inserted inserted_frame;
+    inserted_frame.child = id;
+    queue_.notify(inserted_frame);
   }
 }
 

@@ -47,10 +47,10 @@ void write_sample(TableWriter& writer, const Sample& sample) {
 }
 
 bool read_sample(ByteReader& reader, Sample& sample) {
-  bool whole = true;
-  for (double& number : sample.pose.q) whole = whole && reader.number(number);
-  for (double& number : sample.pose.p) whole = whole && reader.number(number);
-  return whole && reader.number(sample.parent);
+  bool is_complete = true;
+  for (double& number : sample.pose.q) is_complete = is_complete && reader.number(number);
+  for (double& number : sample.pose.p) is_complete = is_complete && reader.number(number);
+  return is_complete && reader.number(sample.parent);
 }
 
 // Stored in the table as well, so that opening a file does not read its samples.

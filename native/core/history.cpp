@@ -285,13 +285,14 @@ std::uint64_t History::chunk_count() const {
 
 void History::drop_oldest_chunk(ChunkPool& pool) { drop_before(pool, (begin_ / Chunk::kSize + 1) * Chunk::kSize); }
 
-void History::copy(const HistoryContext& context, const History& other, std::size_t most) {
+void History::copy(const HistoryContext& context, const History& other, std::size_t max_samples) {
   const View samples = other.view();
   kind_ = samples.kind_;
   if (samples.empty()) return;
   if (samples.is_static()) return set_fixed(samples.sample(0));
   const std::size_t size = samples.size();
-  for (std::size_t i = size - std::min(size, most); i < size; ++i) append(context, samples.time(i), samples.sample(i));
+  for (std::size_t i = size - std::min(size, max_samples); i < size; ++i)
+    append(context, samples.time(i), samples.sample(i));
   one_parent_ = other.one_parent_.get();
 }
 
@@ -412,8 +413,8 @@ bool History::must_grow() const {
 // The first chunk of a frame starts short. Later ones do not: a reader that is too late never sees a short one where it
 // expects a full one.
 std::size_t History::next_length() const {
-  const auto longer = std::upper_bound(kChunkLengths.begin(), kChunkLengths.end(), end_.load());
-  return longer == kChunkLengths.end() ? Chunk::kSize : *longer;
+  const auto next_longer = std::upper_bound(kChunkLengths.begin(), kChunkLengths.end(), end_.load());
+  return next_longer == kChunkLengths.end() ? Chunk::kSize : *next_longer;
 }
 
 // Adds a chunk, or replaces a short one by a longer one.
@@ -423,10 +424,10 @@ void History::extend(const HistoryContext& context) {
   Chunk* chunk = context.storage.pool.take(next_length());
   RelativePointer<Chunk>& entry = directory_.known()->chunk(end_ / Chunk::kSize);
   if (const std::size_t count = end_ % Chunk::kSize; count != 0) {
-    Chunk* shorter = entry.known();
-    copy_samples(*shorter, *chunk, count);
+    Chunk* old_chunk = entry.known();
+    copy_samples(*old_chunk, *chunk, count);
     entry.store(chunk);
-    context.storage.pool.release(shorter);
+    context.storage.pool.release(old_chunk);
   } else {
     entry.store(chunk);
   }
@@ -436,13 +437,13 @@ void History::extend(const HistoryContext& context) {
 // Copies chunks that are shared with a snapshot before they change.
 void History::own_chunks(ChunkPool& pool, std::uint64_t first, std::uint64_t end) {
   for (std::uint64_t n = first / Chunk::kSize; n <= (end - 1) / Chunk::kSize; ++n) {
-    Chunk* shared = chunk_at(n * Chunk::kSize);
-    const ChunkHeader& header = *ChunkHeader::of(shared);
+    Chunk* shared_chunk = chunk_at(n * Chunk::kSize);
+    const ChunkHeader& header = *ChunkHeader::of(shared_chunk);
     if (header.holders.load(std::memory_order_acquire) == 1) continue;
-    Chunk* own = pool.take(header.length);
-    copy_samples(*shared, *own, header.length);
-    directory_.known()->chunk(n).store(own);
-    pool.release(shared);
+    Chunk* own_chunk = pool.take(header.length);
+    copy_samples(*shared_chunk, *own_chunk, header.length);
+    directory_.known()->chunk(n).store(own_chunk);
+    pool.release(shared_chunk);
   }
 }
 
@@ -467,10 +468,10 @@ void History::drop_all(const HistoryStorage& storage) {
   const std::uint64_t end = end_;
   if (kind_ == HistoryKind::dynamic && end > begin_ && !mapped_) {
     for (std::uint64_t n = begin_ / Chunk::kSize; n <= (end - 1) / Chunk::kSize; ++n) {
-      Chunk* dropped = chunk_at(n * Chunk::kSize);
-      if (dropped == storage.nothing) continue;  // dropped by a writer that died
+      Chunk* chunk = chunk_at(n * Chunk::kSize);
+      if (chunk == storage.nothing) continue;  // dropped by a writer that died
       directory_.known()->chunk(n).store(storage.nothing);
-      storage.pool.release(dropped);
+      storage.pool.release(chunk);
     }
   }
   const std::uint64_t next = (end + Chunk::kSize - 1) / Chunk::kSize * Chunk::kSize;

@@ -118,9 +118,10 @@ class History {
       if (i == 0 || next <= begin_ || next >= end_) return false;
       const Chunk& chunk = chunk_of(next);
       const Stamp start = chunk.stamps[i - 1], end = chunk.stamps[i];
-      const auto whole = static_cast<std::int64_t>(distance(start, end));
-      if (start >= stamp || stamp >= end || whole < 0) return false;
-      pair = {&chunk.samples[i - 1], &chunk.samples[i], static_cast<double>(stamp - start), static_cast<double>(whole)};
+      const auto duration = static_cast<std::int64_t>(distance(start, end));
+      if (start >= stamp || stamp >= end || duration < 0) return false;
+      pair = {&chunk.samples[i - 1], &chunk.samples[i], static_cast<double>(stamp - start),
+              static_cast<double>(duration)};
       return true;
     }
     // Copies the stamps and samples of one chunk from that index on, without those beyond the last one. Not for a
@@ -183,8 +184,8 @@ class History {
       if (stamp <= first_) return low_;
       // Numbers that change in the meantime may be in any order; the result must be a valid sample.
       const double offset = static_cast<double>(distance(first_, stamp)) * per_nanosecond_;
-      const auto most = static_cast<double>(high_ - low_);
-      return low_ + static_cast<std::uint64_t>(offset < most ? offset : most);
+      const auto last_offset = static_cast<double>(high_ - low_);
+      return low_ + static_cast<std::uint64_t>(offset < last_offset ? offset : last_offset);
     }
     // Finds the first sample newer than a stamp that is covered and not the newest, in doubling steps from the guess.
     std::uint64_t first_after(Stamp stamp, std::uint64_t guess) const;
@@ -288,9 +289,9 @@ class History {
   void clear(const HistoryContext& context);
   // Copies the current state of `other`. The samples are shared.
   void share(const HistoryStorage& storage, const History& other);
-  // Copies the current state of `other` with its newest samples, at most `most`. Requires that `other` does not change
-  // meanwhile, or that the caller discards the copy then.
-  void copy(const HistoryContext& context, const History& other, std::size_t most);
+  // Copies the current state of `other` with its newest samples, at most `max_samples`. Requires that `other` does not
+  // change meanwhile, or that the caller discards the copy then.
+  void copy(const HistoryContext& context, const History& other, std::size_t max_samples);
   // Uses samples that are owned elsewhere and never change: contiguous chunks, all full except the last.
   void map(const HistoryStorage& storage, const Chunk* chunks, std::uint64_t samples, bool one_parent,
            const Span& span);

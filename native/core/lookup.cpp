@@ -123,11 +123,11 @@ bool walk_pose(const Tree& tree, Method& method, FrameId target, FrameId source,
 bool path_pose(std::vector<PathCache::Step>& steps, Stamp stamp, Pose& pose) {
   constexpr std::size_t kEdges = 32;
   std::array<Edge, kEdges> edges;
-  std::size_t left = steps.size();
-  for (bool first = true; left > 0; first = false) {
-    const std::size_t count = std::min(left, kEdges);
+  std::size_t remaining = steps.size();
+  for (bool first = true; remaining > 0; first = false) {
+    const std::size_t count = std::min(remaining, kEdges);
     for (std::size_t i = 0; i < count; ++i) {
-      PathCache::Step& step = steps[--left];
+      PathCache::Step& step = steps[--remaining];
       edges[i].down = step.down;
       if (!step.history->locate(stamp, step.parent, step.hint, edges[i])) return false;
     }
@@ -262,15 +262,15 @@ namespace {
 
 // Both walks end with the same frames, and those above the last common one are removed. If only the source itself is
 // left on its side, tf2 does not change that side.
-void join_walks(std::vector<FrameId>& up, std::vector<FrameId>& down) {
-  down.push_back(up.back());
-  std::size_t m = down.size(), n = up.size();
-  while (m > 0 && n > 0 && down[m - 1] == up[n - 1]) {
+void join_walks(std::vector<FrameId>& up_frames, std::vector<FrameId>& down_frames) {
+  down_frames.push_back(up_frames.back());
+  std::size_t m = down_frames.size(), n = up_frames.size();
+  while (m > 0 && n > 0 && down_frames[m - 1] == up_frames[n - 1]) {
     --m;
     --n;
   }
-  if (n > 1) up.resize(n + 1);
-  while (m > 0) up.push_back(down[--m]);
+  if (n > 1) up_frames.resize(n + 1);
+  while (m > 0) up_frames.push_back(down_frames[--m]);
 }
 
 }  // namespace
@@ -280,16 +280,16 @@ bool chain(const Tree& tree, FrameId target, FrameId source, Stamp stamp, std::v
   frames.clear();
   if (target == source) return true;
   if (stamp == 0 && !latest_common_time(tree, target, source, stamp, failure)) return false;
-  std::vector<FrameId> down;
+  std::vector<FrameId> down_frames;
   Walk walk;
   walk.up = &frames;
-  walk.down = &down;
+  walk.down = &down_frames;
   Exact exact;
   if (!walk_tree(tree, exact, target, source, stamp, walk, failure)) return false;
   if (frames.empty()) {
-    frames.assign(down.rbegin(), down.rend());
-  } else if (!down.empty()) {
-    join_walks(frames, down);
+    frames.assign(down_frames.rbegin(), down_frames.rend());
+  } else if (!down_frames.empty()) {
+    join_walks(frames, down_frames);
   }
   return true;
 }

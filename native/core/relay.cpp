@@ -32,7 +32,7 @@ Relay::SourceId Relay::add_source(Renaming renaming, Direction direction) {
 }
 
 void Relay::add(SourceId source, WriterId writer, const std::uint8_t* data, std::size_t size, std::int64_t now,
-                std::int64_t wall) {
+                std::int64_t wall_time) {
   Writer& from = writer_of(sources_.at(source), writer);
   ++from.messages;
   from.received_at = now;
@@ -60,7 +60,7 @@ void Relay::add(SourceId source, WriterId writer, const std::uint8_t* data, std:
     edge.values = view.values;
     if (is_static_) {
       ++edge.passed;
-    } else if (most_) {
+    } else if (max_error_) {
       thin(place - 1, sources_[source], now);
     } else if (is_due(edge, now)) {
       ++edge.passed;
@@ -69,7 +69,7 @@ void Relay::add(SourceId source, WriterId writer, const std::uint8_t* data, std:
       ++edge.thinned;
     }
   }
-  if (!is_static_ && newest != 0) from.delay.add(wall - newest);
+  if (!is_static_ && newest != 0) from.delay.add(wall_time - newest);
   if (decoded_.capacity() > kMaxRemembered) decoded_ = std::vector<TransformView>();
 }
 
@@ -80,7 +80,7 @@ std::string Relay::take(std::int64_t now) {
       if (edge.passed > 0) write(edge, edge.newest, edge.values);
     }
   }
-  if (most_) flush_due(now);
+  if (max_error_) flush_due(now);
   if (written_.empty()) return {};
   std::string message = encode_tf_message(written_);
   written_.clear();
@@ -148,7 +148,7 @@ bool Relay::claim_edge(std::uint32_t place, SourceId source, const TransformView
     }
     return false;
   }
-  if (most_ && claim.source != kNoSource && claim.edge != place) {  // another parent: there is no interpolation
+  if (max_error_ && claim.source != kNoSource && claim.edge != place) {  // another parent: there is no interpolation
     flush(edges_[claim.edge]);
     edges_[claim.edge].thinning.restart();
   }
@@ -170,7 +170,7 @@ bool Relay::is_due(Edge& edge, std::int64_t now) const {
 void Relay::thin(std::uint32_t place, Source& source, std::int64_t now) {
   Edge& edge = edges_[place];
   const std::size_t before = edge.thinning.pending();
-  if (edge.thinning.add(*most_, {edge.newest, now, edge.values}, due_)) {
+  if (edge.thinning.add(*max_error_, {edge.newest, now, edge.values}, due_)) {
     source.moved_at = now;
     next_due_ = now;  // the other edges of the robot may be due
   }
@@ -206,13 +206,13 @@ void Relay::flush_due(std::int64_t now) {
   });
 }
 
-// Writes what Thinning found to be due, after `added` transforms were added to those that were pending before.
-void Relay::write_due(Edge& edge, std::size_t before, std::size_t added) {
+// Writes what Thinning found to be due, after `added_count` transforms were added to those that were pending before.
+void Relay::write_due(Edge& edge, std::size_t pending_before, std::size_t added_count) {
   for (const TimedTransform& transform : due_) write(edge, transform.stamp, transform.values);
   const std::size_t pending = edge.thinning.pending();
   edge.passed += due_.size();
-  edge.thinned += before + added - due_.size() - pending;
-  pending_ = pending_ - before + pending;
+  edge.thinned += pending_before + added_count - due_.size() - pending;
+  pending_ = pending_ - pending_before + pending;
   due_.clear();
 }
 

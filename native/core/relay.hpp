@@ -78,12 +78,12 @@ class Relay {
   // transforms of a robot that moves. For static edges the last transforms are kept, and all of them are written as
   // soon as one changes.
   Relay(bool is_static, std::int64_t period, std::optional<MaxError> most = {})
-      : is_static_(is_static), period_(period), most_(most) {}
+      : is_static_(is_static), period_(period), max_error_(most) {}
 
   SourceId add_source(Renaming renaming, Direction direction);
-  // Adds a message. Malformed messages are counted. `wall` is the time of the system clock.
+  // Adds a message. Malformed messages are counted. `wall_time` is the time of the system clock.
   void add(SourceId source, WriterId writer, const std::uint8_t* data, std::size_t size, std::int64_t now,
-           std::int64_t wall);
+           std::int64_t wall_time);
   // Returns one message with everything to send since the last call; empty if there is nothing to write.
   std::string take(std::int64_t now);
   // When take() has something to write although nothing is added; kNever if it has not.
@@ -115,12 +115,12 @@ class Relay {
   void thin(std::uint32_t place, Source& source, std::int64_t now);
   void flush(Edge& edge);
   void flush_due(std::int64_t now);
-  void write_due(Edge& edge, std::size_t before, std::size_t added);
+  void write_due(Edge& edge, std::size_t pending_before, std::size_t added_count);
   void write(const Edge& edge, Stamp stamp, const TransformValues& values);
 
   bool is_static_;
   std::int64_t period_;
-  std::optional<MaxError> most_;
+  std::optional<MaxError> max_error_;
   std::vector<Source> sources_;
   std::deque<Claim> claims_;  // a deque, because messages are written from views of the names
   std::deque<Edge> edges_;

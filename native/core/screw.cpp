@@ -35,17 +35,17 @@ Pose part_of_motion(const Pose& motion, double share) {
   const Vector p{motion.p[0], motion.p[1], motion.p[2]};
   const Vector n{sign * q[0] / sine, sign * q[1] / sine, sign * q[2] / sine};
   const double half = std::atan2(sine, sign * q[3]);  // half of the angle, in (0, pi/2]
-  const double along = n.x * p.x + n.y * p.y + n.z * p.z;
-  const Vector across = sum(1.0, p, -along, n);
+  const double axial_length = n.x * p.x + n.y * p.y + n.z * p.z;
+  const Vector radial_vector = sum(1.0, p, -axial_length, n);
   // Across the axis both motions are rotations about one point, so the fraction is (R(share) - I) (R - I)^-1 across,
   // with (R - I)^-1 = -1/2 (I + cot(half) [n]).
-  const Vector root = sum(-0.5, across, -0.5 / std::tan(half), cross(n, across));
+  const Vector root = sum(-0.5, radial_vector, -0.5 / std::tan(half), cross(n, radial_vector));
   const double sine_part = std::sin(half * share);
   const double versine = 2.0 * sine_part * sine_part;  // 1 - cos of the fraction's angle
   const Vector plane = sum(-versine, root, std::sin(2.0 * half * share), cross(n, root));
-  part.p[0] = share * along * n.x + plane.x;
-  part.p[1] = share * along * n.y + plane.y;
-  part.p[2] = share * along * n.z + plane.z;
+  part.p[0] = share * axial_length * n.x + plane.x;
+  part.p[1] = share * axial_length * n.y + plane.y;
+  part.p[2] = share * axial_length * n.z + plane.z;
   part.q[0] = sine_part * n.x;
   part.q[1] = sine_part * n.y;
   part.q[2] = sine_part * n.z;

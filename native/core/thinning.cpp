@@ -35,8 +35,8 @@ double angle_between(const double* a, const double* b) {
   return 4.0 * std::asin(std::min(1.0, 0.5 * std::sqrt(std::min(near, far))));
 }
 
-bool is_near(const MaxError& most, const Pose& a, const Pose& b) {
-  return distance_between(a.p, b.p) <= most.distance && angle_between(a.q, b.q) <= most.angle;
+bool is_near(const MaxError& max_error, const Pose& a, const Pose& b) {
+  return distance_between(a.p, b.p) <= max_error.distance && angle_between(a.q, b.q) <= max_error.angle;
 }
 
 Pose to_pose(const TransformValues& values) {
@@ -49,7 +49,7 @@ Pose to_pose(const TransformValues& values) {
 
 }  // namespace
 
-bool Thinning::add(const MaxError& most, const TimedTransform& transform, std::vector<TimedTransform>& due) {
+bool Thinning::add(const MaxError& max_error, const TimedTransform& transform, std::vector<TimedTransform>& due) {
   const Sample sample{transform, to_pose(transform.values)};
   if (!is_started_) {
     is_started_ = true;
@@ -63,9 +63,9 @@ bool Thinning::add(const MaxError& most, const TimedTransform& transform, std::v
     return !is_repeated;
   }
   const bool is_leap = angle_between(previous.pose.q, sample.pose.q) > kQuarterTurn;
-  const bool is_close = !is_leap && fits(most, sample);
+  const bool is_close = !is_leap && fits(max_error, sample);
   if (!pending_.empty() && (!is_close || pending_.size() >= kMaxPending)) send(pending_.back(), due);
-  const bool is_moving = !is_close || !is_near(most, last_.pose, sample.pose);
+  const bool is_moving = !is_close || !is_near(max_error, last_.pose, sample.pose);
   if (is_leap) {
     send(sample, due);
   } else {
@@ -84,14 +84,15 @@ void Thinning::restart() {
 }
 
 // Whether all pending samples are close to the interpolation between the last sent sample and the newest one.
-bool Thinning::fits(const MaxError& most, const Sample& newest) const {
-  const MaxError checked{most.distance, most.angle * std::cos(0.25 * (kQuarterTurn + 2.0 * most.angle))};
+bool Thinning::fits(const MaxError& max_error, const Sample& newest) const {
+  const MaxError reduced_error{max_error.distance,
+                               max_error.angle * std::cos(0.25 * (kQuarterTurn + 2.0 * max_error.angle))};
   const Stamp start = last_.transform.stamp;
-  const auto whole = static_cast<double>(newest.transform.stamp - start);
+  const auto duration = static_cast<double>(newest.transform.stamp - start);
   for (const Sample& sample : pending_) {
     Pose expected;
-    interpolate(last_.pose, newest.pose, static_cast<double>(sample.transform.stamp - start) / whole, expected);
-    if (!is_near(checked, expected, sample.pose)) return false;
+    interpolate(last_.pose, newest.pose, static_cast<double>(sample.transform.stamp - start) / duration, expected);
+    if (!is_near(reduced_error, expected, sample.pose)) return false;
   }
   return true;
 }
@@ -103,8 +104,8 @@ void Thinning::add_late(const Sample& sample, std::vector<TimedTransform>& due) 
   std::vector<Sample>().swap(pending_);
   due.push_back(sample.transform);
   // Interpolation continues from the newest sample, unless the clock was set back.
-  const Stamp behind = last_.transform.stamp - sample.transform.stamp;
-  if (behind == 0 || behind > kCacheLength) last_ = sample;
+  const Stamp lateness = last_.transform.stamp - sample.transform.stamp;
+  if (lateness == 0 || lateness > kCacheLength) last_ = sample;
 }
 
 void Thinning::send(const Sample& sample, std::vector<TimedTransform>& due) {

@@ -29,7 +29,8 @@ struct TimedTransform {
 
 // The samples of an edge since the last one that was sent. The method is an opening window: a sample stays pending as
 // long as the interpolation from the last sent sample to the newest one is close to all samples between them. When it
-// is not, the sample before the newest one is sent. Equal or older stamps are sent immediately, with all pending samples.
+// is not, the sample before the newest one is sent. Equal or older stamps are sent immediately, with all pending
+// samples.
 class Thinning {
  public:
   // Limits the time that add() takes, and the memory.
@@ -37,7 +38,7 @@ class Thinning {
 
   // Adds a sample, and appends to `due` those that must be sent now. Returns whether the edge moves: its newest sample
   // differs from the last sent one by more than the allowed error.
-  bool add(const MaxError& most, const TimedTransform& transform, std::vector<TimedTransform>& due);
+  bool add(const MaxError& max_error, const TimedTransform& transform, std::vector<TimedTransform>& due);
   // Appends the newest sample to `due` if it is pending. All other pending samples are dropped.
   void flush(std::vector<TimedTransform>& due);
   // The next sample is sent immediately, because interpolation from earlier ones does not apply to it.
@@ -53,7 +54,7 @@ class Thinning {
     Pose pose;
   };
 
-  bool fits(const MaxError& most, const Sample& newest) const;
+  bool fits(const MaxError& max_error, const Sample& newest) const;
   void send(const Sample& sample, std::vector<TimedTransform>& due);
   void add_late(const Sample& sample, std::vector<TimedTransform>& due);
 

@@ -157,7 +157,7 @@ Tree::~Tree() {
   }
 }
 
-void Tree::become(SharedTreeData shared) { use(shared_storage(std::move(shared))); }
+void Tree::switch_to(SharedTreeData shared) { use(shared_storage(std::move(shared))); }
 
 bool Tree::become_private() {
   try {
@@ -174,11 +174,12 @@ bool Tree::become_private() {
 // frame can be copied. Then the oldest ones are left out, and finally all.
 void Tree::copy_shared(History& history, const Tree& other, FrameId id) {
   constexpr int kComplete = 20, kMaxAttempts = 10'000;  // attempts
-  std::size_t most = SIZE_MAX;
+  std::size_t max_samples = SIZE_MAX;
   for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
     const std::uint64_t revision = other.start_reading();
-    if (attempt >= kComplete) most = std::max<std::size_t>(std::min(most, other.history(id).size()) / 2, 1);
-    history.copy(context(), other.frame(id).history, most);
+    if (attempt >= kComplete)
+      max_samples = std::max<std::size_t>(std::min(max_samples, other.history(id).size()) / 2, 1);
+    history.copy(context(), other.frame(id).history, max_samples);
     if (other.unchanged(revision)) return;
     history.reset(context(), HistoryKind::none);
   }
@@ -187,25 +188,25 @@ void Tree::copy_shared(History& history, const Tree& other, FrameId id) {
 void Tree::copy_from(const Tree& other, bool with_samples) {
   TreeData& tree = data();
   Memory& memory = *storage().memory;
-  const auto copy = [&](Frame& frame, const Frame& theirs, FrameId id) {
+  const auto copy = [&](Frame& frame, const Frame& other_frame, FrameId id) {
     if (with_samples) {
       copy_shared(frame.history, other, id);
     } else {
-      frame.history.share(storage().histories(), theirs.history);
+      frame.history.share(storage().histories(), other_frame.history);
     }
-    frame.authority = theirs.authority.get();
-    frame.known = theirs.known.get();
-    frame.counts.copy(theirs.counts);
+    frame.authority = other_frame.authority.get();
+    frame.known = other_frame.known.get();
+    frame.counts.copy(other_frame.counts);
   };
   copy(tree.frames[0], other.frame(0), 0);
   // Samples that were copied can have frames that are added in the meantime.
   for (FrameId id = 1; id < other.frame_count(); ++id) {
-    const Frame& theirs = other.frame(id);
+    const Frame& other_frame = other.frame(id);
     tree.frames.append(memory, [&](Frame& frame) {
-      frame.name.set(memory, theirs.name);
-      copy(frame, theirs, id);
+      frame.name.set(memory, other_frame.name);
+      copy(frame, other_frame, id);
     });
-    tree.frame_numbers.add(memory, theirs.name, id);
+    tree.frame_numbers.add(memory, other_frame.name, id);
   }
   for (AuthorityId id = 1; id < other.authority_count(); ++id) {
     const std::string name = other.authority_name(id);
@@ -240,17 +241,17 @@ bool Tree::has_room_for_names(std::size_t bytes) {
 bool Tree::make_room(const History& history) {
   const HistoryStorage& parts = storage().histories();
   while (!history.has_room(parts)) {
-    History* longest = nullptr;
-    std::uint64_t most = 1;
+    History* longest_history = nullptr;
+    std::uint64_t max_chunks = 1;
     for (FrameId id = 0; id < frame_count(); ++id) {
       History& other = data().frames[id].history;
-      if (other.chunk_count() > most) {
-        most = other.chunk_count();
-        longest = &other;
+      if (other.chunk_count() > max_chunks) {
+        max_chunks = other.chunk_count();
+        longest_history = &other;
       }
     }
-    if (!longest) return false;
-    longest->drop_oldest_chunk(parts.pool);
+    if (!longest_history) return false;
+    longest_history->drop_oldest_chunk(parts.pool);
   }
   return true;
 }
@@ -351,13 +352,13 @@ void Tree::insert(FrameId parent, FrameId child, Stamp stamp, const TransformVal
     inserted.child = child;
     return;
   }
-  know_again(child, frame, inserted);
-  know_again(parent, data().frames[parent], inserted);
+  restore_known(child, frame, inserted);
+  restore_known(parent, data().frames[parent], inserted);
   store(frame, child, stamp, sample, is_static, authority, inserted);
 }
 
 // The frame may have been removed since its id was found.
-void Tree::know_again(FrameId id, Frame& frame, Inserted& inserted) {
+void Tree::restore_known(FrameId id, Frame& frame, Inserted& inserted) {
   if (id == 0 || frame.known) return;
   frame.known = true;
   inserted.new_names = true;

@@ -94,7 +94,7 @@ class Tree {
   SharedAccess* access() const { return storage().access.get(); }
 
   // Continues with shared data instead of its own, which must not contain a frame. Other threads may be reading.
-  void become(SharedTreeData shared);
+  void switch_to(SharedTreeData shared);
   // Continues with a copy of the shared data on the heap, with the same ids. Other threads may be reading. Returns
   // false if the data are lost.
   bool become_private();
@@ -182,7 +182,7 @@ class Tree {
   FrameId find_or_add(std::string_view name, bool& is_new);
   std::uint32_t find_number(std::string_view name) const;
   void prepare(History& history, bool is_static, Inserted& inserted);
-  void know_again(FrameId id, Frame& frame, Inserted& inserted);
+  void restore_known(FrameId id, Frame& frame, Inserted& inserted);
   bool make_room(const History& history);
   void store(Frame& frame, FrameId child, Stamp stamp, const Sample& sample, bool is_static, AuthorityId authority,
              Inserted& inserted);

@@ -85,8 +85,8 @@ class SharedAccess {
   virtual bool complete_change() = 0;
   // Says whose change does not end, and what to do.
   virtual std::string unfinished_change() const = 0;
-  // Waits until the number of changes is not `seen`, until a call of wake(), or until `timeout_ns` has passed.
-  virtual void wait_for_change(std::uint64_t seen, std::int64_t timeout_ns) = 0;
+  // Waits until the number of changes is not `known_changes`, until a call of wake(), or until `timeout_ns` has passed.
+  virtual void wait_for_change(std::uint64_t known_changes, std::int64_t timeout_ns) = 0;
   virtual void wake() = 0;
 };
 

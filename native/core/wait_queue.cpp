@@ -18,11 +18,11 @@ bool is_for_latest(const LookupQuery& query) {
 }
 
 template <class T>
-void remove_unordered(std::vector<std::shared_ptr<T>>& all, const std::shared_ptr<T>& one) {
-  const auto found = std::find(all.begin(), all.end(), one);
-  if (found == all.end()) return;
-  *found = std::move(all.back());
-  all.pop_back();
+void remove_unordered(std::vector<std::shared_ptr<T>>& items, const std::shared_ptr<T>& item) {
+  const auto found = std::find(items.begin(), items.end(), item);
+  if (found == items.end()) return;
+  *found = std::move(items.back());
+  items.pop_back();
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ void Mailbox::put(Token token) {
     tokens_.push_back(token);
     count_.store(tokens_.size());
   }
-  arrived_.set();
+  arrival_.set();
 }
 
 std::vector<Token> Mailbox::take() {
@@ -43,7 +43,7 @@ std::vector<Token> Mailbox::take() {
 }
 
 bool Mailbox::wait_for(std::int64_t timeout_ns) {
-  if (empty()) arrived_.wait(timeout_ns);
+  if (empty()) arrival_.wait(timeout_ns);
   return !empty();
 }
 
@@ -158,11 +158,11 @@ void WaitQueue::attach_to_frame(const std::shared_ptr<Watch>& watch) {
 void WaitQueue::notify(const Inserted& inserted) {
   if (inserted.rewired && waiting_.load() > 0) {
     const ForkSafeLock lock(mutex_);
-    Waits all;
+    Waits waits;
     for (const auto& [_, wait] : waits_) {
-      if (wait->condition_.name.empty()) all.push_back(wait);
+      if (wait->condition_.name.empty()) waits.push_back(wait);
     }
-    retry(all);
+    retry(waits);
   }
   if (inserted.new_names && names_.load() > 0) on_new_names();
   if (inserted.child == 0) return;
@@ -176,24 +176,24 @@ void WaitQueue::on_insertion(FrameId child) {
   if (waiters == by_frame_.end()) return;
   for (const auto& watch : waiters->second.watches) watch->note(child);
   const History::View history = tree_.history(child);
-  Waits helped;
+  Waits ready_waits;
   for (const auto& wait : waiters->second.waits) {
-    if (history.is_static() || history.newest() >= wait->condition_.needed) helped.push_back(wait);
+    if (history.is_static() || history.newest() >= wait->condition_.needed) ready_waits.push_back(wait);
   }
-  retry(helped);
+  retry(ready_waits);
 }
 
 void WaitQueue::on_new_names() {
   const ForkSafeLock lock(mutex_);
-  Waits helped;
+  Waits ready_waits;
   std::vector<std::shared_ptr<Watch>> watches;
   for (const auto& [name, waiters] : by_name_) {
     if (tree_.find(name) == 0) continue;
-    helped.insert(helped.end(), waiters.waits.begin(), waiters.waits.end());
+    ready_waits.insert(ready_waits.end(), waiters.waits.begin(), waiters.waits.end());
     watches.insert(watches.end(), waiters.watches.begin(), waiters.watches.end());
   }
   for (const auto& watch : watches) attach_to_frame(watch);
-  retry(helped);
+  retry(ready_waits);
 }
 
 void WaitQueue::retry(const Waits& waits) {

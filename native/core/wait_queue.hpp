@@ -35,7 +35,7 @@ class Mailbox {
 
  private:
   std::atomic<std::size_t> count_{0};
-  Event arrived_;
+  Event arrival_;
   std::mutex mutex_;
   std::vector<Token> tokens_;  // guarded by mutex_
 };
@@ -159,13 +159,15 @@ class WaitQueue {
 // Adds a wait to the queue for a scope.
 class ScopedWait {
  public:
-  ScopedWait(WaitQueue& room, std::shared_ptr<Wait> wait) : room_(room), wait_(std::move(wait)) { room_.add(wait_); }
+  ScopedWait(WaitQueue& queue, std::shared_ptr<Wait> wait) : queue_(queue), wait_(std::move(wait)) {
+    queue_.add(wait_);
+  }
   ScopedWait(const ScopedWait&) = delete;
   ScopedWait& operator=(const ScopedWait&) = delete;
-  ~ScopedWait() { room_.remove(wait_); }
+  ~ScopedWait() { queue_.remove(wait_); }
 
  private:
-  WaitQueue& room_;
+  WaitQueue& queue_;
   std::shared_ptr<Wait> wait_;
 };
 

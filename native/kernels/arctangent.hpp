@@ -29,11 +29,11 @@ COFRAME_INLINE Lanes arctangent(const Lanes& y, const Lanes& x) {
        4.853903996359136964868e2) *
           z +
       1.945506571482613964425e2;
-  const Lanes small = t + t * (z * p / q);
-  const Lanes large = kQuarter + (small + kQuarterRest);
-  const Lanes angle = is_large ? large : small;
-  const Lanes rest = kHalf - (angle - kHalfRest);
-  return is_steep ? rest : angle;
+  const Lanes small_angle = t + t * (z * p / q);
+  const Lanes large_angle = kQuarter + (small_angle + kQuarterRest);
+  const Lanes angle = is_large ? large_angle : small_angle;
+  const Lanes complement = kHalf - (angle - kHalfRest);
+  return is_steep ? complement : angle;
 }
 
 }  // namespace

@@ -62,23 +62,23 @@ COFRAME_INLINE Four conjugate(const Four& q) { return Four{-1.0, -1.0, -1.0, 1.0
 // Composes from the target to the source: only the rotation depends on the previous edge, so the processor can work on
 // several edges at once.
 void chain(const Edge* edges, std::size_t n, Pose* end) {
-  ComposedPose all{Four{0.0, 0.0, 0.0, 1.0}, Four{}};
+  ComposedPose total{Four{0.0, 0.0, 0.0, 1.0}, Four{}};
   for (std::size_t i = 0; i < n; ++i) {
     const Edge& edge = edges[i];
     ComposedPose step = load_pose(edge.older);
     if (edge.older != edge.newer) step = between(step, load_pose(edge.newer), edge.fraction);
     if (edge.down) {
-      all.q = i == 0 ? conjugate(step.q) : product(all.q, conjugate(step.q));
-      all.p = all.p - rotated(all.q, step.p);
+      total.q = i == 0 ? conjugate(step.q) : product(total.q, conjugate(step.q));
+      total.p = total.p - rotated(total.q, step.p);
     } else if (i == 0) {
-      all = step;
+      total = step;
     } else {
-      all.p = all.p + rotated(all.q, step.p);
-      all.q = product(all.q, step.q);
+      total.p = total.p + rotated(total.q, step.p);
+      total.q = product(total.q, step.q);
     }
   }
-  std::memcpy(end->q, &all.q, sizeof(end->q));
-  std::memcpy(end->p, &all.p, sizeof(end->p));
+  std::memcpy(end->q, &total.q, sizeof(end->q));
+  std::memcpy(end->p, &total.p, sizeof(end->p));
 }
 
 }  // namespace coframe::COFRAME_LEVEL

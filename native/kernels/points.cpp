@@ -41,19 +41,19 @@ COFRAME_INLINE Point transformed(double qx, double qy, double qz, double qw, con
   if constexpr (kInverse) {
     return rotated(-qx, -qy, -qz, qw, {offset.take_from(v.x, 0), offset.take_from(v.y, 1), offset.take_from(v.z, 2)});
   }
-  const Point turned = rotated(qx, qy, qz, qw, v);
-  return {offset.add_to(turned.x, 0), offset.add_to(turned.y, 1), offset.add_to(turned.z, 2)};
+  const Point rotated_point = rotated(qx, qy, qz, qw, v);
+  return {offset.add_to(rotated_point.x, 0), offset.add_to(rotated_point.y, 1), offset.add_to(rotated_point.z, 2)};
 }
 
 template <bool kInverse, class Slerp>
-void transform_moving_by(const Motion& motion, const Arc& between, const double* __restrict fractions, std::size_t n,
-                         const Points& points) {
+void transform_moving_by(const Motion& motion, const Arc& shortest_arc, const double* __restrict fractions,
+                         std::size_t n, const Points& points) {
   double aq[4], bq[4], ap[3], bp[3];
   std::memcpy(aq, motion.older.q, sizeof(aq));
   std::memcpy(ap, motion.older.p, sizeof(ap));
   std::memcpy(bp, motion.newer.p, sizeof(bp));
-  for (int k = 0; k < 4; ++k) bq[k] = between.sign * motion.newer.q[k];
-  const typename Slerp::WeightAt weight(between.cosine);
+  for (int k = 0; k < 4; ++k) bq[k] = shortest_arc.sign * motion.newer.q[k];
+  const typename Slerp::WeightAt weight(shortest_arc.cosine);
   double* __restrict xs = points.x, * __restrict ys = points.y, * __restrict zs = points.z;
   for (std::size_t i = 0; i < n; ++i) {
     const Ends<double> line = line_weights(fractions[i]);
@@ -94,13 +94,13 @@ void transform(const Affine& affine, std::size_t n, Points points) {
 }
 
 void transform_moving(const Motion& motion, const double* fractions, std::size_t n, Points points) {
-  const Arc between = arc(motion.older.q, motion.newer.q);
-  choose_slerp(between.cosine, [&](auto slerp) {
+  const Arc shortest_arc = arc(motion.older.q, motion.newer.q);
+  choose_slerp(shortest_arc.cosine, [&](auto slerp) {
     using Slerp = decltype(slerp);
     if (motion.inverse) {
-      transform_moving_by<true, Slerp>(motion, between, fractions, n, points);
+      transform_moving_by<true, Slerp>(motion, shortest_arc, fractions, n, points);
     } else {
-      transform_moving_by<false, Slerp>(motion, between, fractions, n, points);
+      transform_moving_by<false, Slerp>(motion, shortest_arc, fractions, n, points);
     }
   });
 }

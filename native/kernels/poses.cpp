@@ -9,7 +9,7 @@ namespace {
 // The number of poses that are processed together; their data fits the first-level cache.
 constexpr std::size_t kBlock = 64;
 
-std::size_t block_size(std::size_t left) { return left < kBlock ? left : kBlock; }
+std::size_t block_size(std::size_t remaining) { return remaining < kBlock ? remaining : kBlock; }
 
 }  // namespace
 
@@ -20,10 +20,10 @@ void interpolate_many(const Pose* older, const Pose* newer, const double* fracti
     const Pose *a = older + done, *b = newer + done;
     double least = 1.0;
     for (std::size_t i = 0; i < count; ++i) {
-      const Arc between = arc(a[i].q, b[i].q);
-      cosines[i] = between.cosine;
-      signs[i] = between.sign;
-      least = between.cosine < least ? between.cosine : least;
+      const Arc shortest_arc = arc(a[i].q, b[i].q);
+      cosines[i] = shortest_arc.cosine;
+      signs[i] = shortest_arc.sign;
+      least = shortest_arc.cosine < least ? shortest_arc.cosine : least;
     }
     choose_slerp(least, [&](auto slerp) {
       double firsts[kBlock], seconds[kBlock];

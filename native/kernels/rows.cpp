@@ -47,9 +47,9 @@ template <bool kDown>
 COFRAME_INLINE TwistLanes transformed(const PoseLanes& step, const TwistLanes& rate, const PoseLanes& pose,
                                       const TwistLanes& twist) {
   if constexpr (kDown) {
-    const Quaternion<Lanes> back = conjugate(step.q);
-    return {rotated(back, twist.linear - rate.linear - cross(rate.angular, pose.p - step.p)),
-            rotated(back, twist.angular - rate.angular)};
+    const Quaternion<Lanes> inverse_rotation = conjugate(step.q);
+    return {rotated(inverse_rotation, twist.linear - rate.linear - cross(rate.angular, pose.p - step.p)),
+            rotated(inverse_rotation, twist.angular - rate.angular)};
   }
   return {rotated(step.q, twist.linear) + rate.linear + cross(rate.angular, rotated(step.q, pose.p)),
           rotated(step.q, twist.angular) + rate.angular};
@@ -80,9 +80,9 @@ COFRAME_INLINE PoseLanes step_at(const Between& edge, std::size_t i, TwistLanes&
   const Vector<Lanes> from = load_translations(edge.older + i), to = load_translations(edge.newer + i);
   if constexpr (kMoving) {
     const Lanes per_second = load_lanes(edge.per_second + i);
-    const Quaternion<Lanes> turn = b * conjugate(a);
+    const Quaternion<Lanes> rotation = b * conjugate(a);
     const Lanes scale = with_sign(2.0 * per_second * weights.angle_by_sine, sign);
-    rate = {per_second * (to - from), scale * Vector<Lanes>{turn.x, turn.y, turn.z}};
+    rate = {per_second * (to - from), scale * Vector<Lanes>{rotation.x, rotation.y, rotation.z}};
   }
   return {
       {first * a.x + second * b.x, first * a.y + second * b.y, first * a.z + second * b.z, first * a.w + second * b.w},

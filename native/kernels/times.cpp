@@ -22,12 +22,13 @@ std::size_t count_changes(const std::int64_t* times, std::size_t n) {
 
 std::size_t count_leading(const std::int64_t* times, std::size_t n, std::int64_t start, std::uint64_t length) {
   const auto origin = static_cast<std::uint64_t>(start);
-  constexpr std::size_t kTogether = 16;
+  constexpr std::size_t kBlockSize = 16;
   std::size_t i = 0;
-  for (; i + kTogether <= n; i += kTogether) {
-    bool all = true;
-    for (std::size_t k = 0; k < kTogether; ++k) all &= static_cast<std::uint64_t>(times[i + k]) - origin < length;
-    if (!all) break;
+  for (; i + kBlockSize <= n; i += kBlockSize) {
+    bool all_inside = true;
+    for (std::size_t k = 0; k < kBlockSize; ++k)
+      all_inside &= static_cast<std::uint64_t>(times[i + k]) - origin < length;
+    if (!all_inside) break;
   }
   while (i < n && static_cast<std::uint64_t>(times[i]) - origin < length) ++i;
   return i;
@@ -35,10 +36,10 @@ std::size_t count_leading(const std::int64_t* times, std::size_t n, std::int64_t
 
 void fractions(const std::int64_t* times, std::int64_t start, std::int64_t end, std::size_t n, double* out) {
   const auto origin = static_cast<std::uint64_t>(start);
-  const std::uint64_t whole = static_cast<std::uint64_t>(end) - origin;
-  const double scale = 1.0 / static_cast<double>(whole);
+  const std::uint64_t duration = static_cast<std::uint64_t>(end) - origin;
+  const double scale = 1.0 / static_cast<double>(duration);
   constexpr std::uint64_t kExact = std::uint64_t{1} << 52;
-  if (whole >= kExact) {
+  if (duration >= kExact) {
     for (std::size_t i = 0; i < n; ++i) {
       out[i] = static_cast<double>(static_cast<std::uint64_t>(times[i]) - origin) * scale;
     }

@@ -9,11 +9,11 @@ namespace coframe {
 namespace {
 
 // PNG's predictor: the neighbor that is nearest to left + above - corner.
-std::uint8_t paeth(int left, int above, int corner) {
-  const int from_left = std::abs(above - corner), from_above = std::abs(left - corner);
-  const int from_corner = std::abs(left + above - 2 * corner);
-  if (from_left <= from_above && from_left <= from_corner) return static_cast<std::uint8_t>(left);
-  return static_cast<std::uint8_t>(from_above <= from_corner ? above : corner);
+std::uint8_t paeth(int left, int above, int upper_left) {
+  const int from_left = std::abs(above - upper_left), from_above = std::abs(left - upper_left);
+  const int from_upper_left = std::abs(left + above - 2 * upper_left);
+  if (from_left <= from_above && from_left <= from_upper_left) return static_cast<std::uint8_t>(left);
+  return static_cast<std::uint8_t>(from_above <= from_upper_left ? above : upper_left);
 }
 
 // Numbers in groups of four bits: three bits of the number, lowest first, and whether another group follows.
@@ -44,17 +44,17 @@ bool unfilter_png(const std::uint8_t* rows, std::uint8_t* pixels, std::size_t he
   for (std::size_t y = 0; y < height; ++y) {
     const std::uint8_t filter = *rows++;
     std::uint8_t* row = pixels + y * row_bytes;
-    const std::uint8_t* before = y > 0 ? row - row_bytes : nullptr;
+    const std::uint8_t* previous_row = y > 0 ? row - row_bytes : nullptr;
     if (filter > 4) return false;
     for (std::size_t x = 0; x < row_bytes; ++x) {
-      const int left = x >= pixel_bytes ? row[x - pixel_bytes] : 0;
-      const int above = before ? before[x] : 0;
-      const int corner = before && x >= pixel_bytes ? before[x - pixel_bytes] : 0;
+      const int left_pixel = x >= pixel_bytes ? row[x - pixel_bytes] : 0;
+      const int upper_pixel = previous_row ? previous_row[x] : 0;
+      const int upper_left_pixel = previous_row && x >= pixel_bytes ? previous_row[x - pixel_bytes] : 0;
       const int predicted = filter == 0   ? 0
-                            : filter == 1 ? left
-                            : filter == 2 ? above
-                            : filter == 3 ? (left + above) / 2
-                                          : paeth(left, above, corner);
+                            : filter == 1 ? left_pixel
+                            : filter == 2 ? upper_pixel
+                            : filter == 3 ? (left_pixel + upper_pixel) / 2
+                                          : paeth(left_pixel, upper_pixel, upper_left_pixel);
       row[x] = static_cast<std::uint8_t>(*rows++ + predicted);
     }
   }

@@ -68,10 +68,11 @@ class PointBlock {
 
 inline Affine affine_of(const Pose& pose, bool is_direction) {
   const double x = pose.q[0], y = pose.q[1], z = pose.q[2], w = pose.q[3];
-  const double moved = is_direction ? 0.0 : 1.0;
-  return {{{1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y), moved * pose.p[0]},
-           {2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x), moved * pose.p[1]},
-           {2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y), moved * pose.p[2]}}};
+  const double translation_factor = is_direction ? 0.0 : 1.0;
+  return {
+      {{1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y), translation_factor * pose.p[0]},
+       {2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x), translation_factor * pose.p[1]},
+       {2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y), translation_factor * pose.p[2]}}};
 }
 
 }  // namespace coframe

@@ -285,8 +285,8 @@ class LinuxSegment final : public Segment {
   }
 
   void interrupt() override {
-    const std::uint64_t one = 1;
-    (void)!write(interrupt_.number(), &one, sizeof one);
+    const std::uint64_t increment = 1;
+    (void)!write(interrupt_.number(), &increment, sizeof increment);
   }
 
   bool outdated() const override { return mapping_->header().tree.outdated.load() != 0; }
@@ -336,8 +336,8 @@ class LinuxSegment final : public Segment {
     if (!lock) fail("the file " + lock_path_ + " cannot be opened");
     if (lock.lock(LOCK_EX)) {
       // Locked until it is replaced, so that no other process opens it in the meantime.
-      const File abandoned = open_file(path_, O_RDONLY);
-      if (!abandoned || abandoned.lock(LOCK_EX)) create(cache_length, capacity);
+      const File abandoned_file = open_file(path_, O_RDONLY);
+      if (!abandoned_file || abandoned_file.lock(LOCK_EX)) create(cache_length, capacity);
       writer_lock_ = std::move(lock);
     }
     File file = open_file(path_, O_RDONLY);
@@ -364,15 +364,15 @@ class LinuxSegment final : public Segment {
 
   // The memory appears under its name when it is complete.
   void create(Stamp cache_length, std::size_t capacity) {
-    const std::string draft = path_ + ".new";
-    unlink(draft.c_str());
-    File file = open_file(draft, O_RDWR | O_CREAT | O_EXCL, 0600);
-    if (!file) fail("the file " + draft + " cannot be created");
-    const std::size_t backed = std::min(kMinRoom, capacity);
-    const int error = back_with_memory(file, 0, backed);
+    const std::string draft_path = path_ + ".new";
+    unlink(draft_path.c_str());
+    File file = open_file(draft_path, O_RDWR | O_CREAT | O_EXCL, 0600);
+    if (!file) fail("the file " + draft_path + " cannot be created");
+    const std::size_t backed_size = std::min(kMinRoom, capacity);
+    const int error = back_with_memory(file, 0, backed_size);
     if (error != 0 || ftruncate(file.number(), static_cast<off_t>(capacity)) != 0) {
       if (error != 0) errno = error;
-      unlink(draft.c_str());
+      unlink(draft_path.c_str());
       fail("there is no room for shared memory in " + path_);
     }
     const auto mapping = std::make_shared<Mapping>(file, capacity, true, path_);
@@ -380,11 +380,11 @@ class LinuxSegment final : public Segment {
     header->layout = layout();
     header->capacity = capacity;
     header->used.store(sizeof(Header));
-    header->backed.store(backed);
+    header->backed.store(backed_size);
     SegmentMemory memory(std::move(file), mapping);
     const auto now = std::chrono::system_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
     initialize(header->tree, memory, cache_length, static_cast<std::uint64_t>(now));
-    if (rename(draft.c_str(), path_.c_str()) != 0) fail("the file " + draft + " cannot be renamed");
+    if (rename(draft_path.c_str(), path_.c_str()) != 0) fail("the file " + draft_path + " cannot be renamed");
   }
 
   SharedTreeData map_writable(bool as_writer);
@@ -410,12 +410,12 @@ class Access final : public SharedAccess {
            process + ") or end it";
   }
 
-  void wait_for_change(std::uint64_t seen, std::int64_t timeout_ns) override {
+  void wait_for_change(std::uint64_t known_changes, std::int64_t timeout_ns) override {
     constexpr std::int64_t kSecond = 1'000'000'000;
     std::timespec limit{.tv_sec = static_cast<std::time_t>(timeout_ns / kSecond),
                         .tv_nsec = static_cast<long>(timeout_ns % kSecond)};
-    if (mapping_->header().tree.changes.load() != seen) return;
-    syscall(SYS_futex, word(), FUTEX_WAIT, static_cast<std::uint32_t>(seen), &limit, nullptr, 0);
+    if (mapping_->header().tree.changes.load() != known_changes) return;
+    syscall(SYS_futex, word(), FUTEX_WAIT, static_cast<std::uint32_t>(known_changes), &limit, nullptr, 0);
   }
 
   void wake() override { syscall(SYS_futex, word(), FUTEX_WAKE, 0x7fffffff, nullptr, nullptr, 0); }

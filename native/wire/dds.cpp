@@ -48,13 +48,13 @@ Code write(Entity writer, const Sertype* type, std::span<const IoVector> parts, 
   const Functions& f = functions();
   if (type == nullptr) {
     if (parts.size() == 1) return RawSample(parts[0].data, size).write(writer);
-    std::vector<char> whole;
-    whole.reserve(size);
+    std::vector<char> bytes;
+    bytes.reserve(size);
     for (const IoVector& part : parts) {
       const char* begin = static_cast<const char*>(part.data);
-      whole.insert(whole.end(), begin, begin + part.size);
+      bytes.insert(bytes.end(), begin, begin + part.size);
     }
-    return RawSample(whole.data(), size).write(writer);
+    return RawSample(bytes.data(), size).write(writer);
   }
   Serdata* sample = f.ddsi_serdata_from_ser_iov(type, kData, parts.size(), parts.data(), size);  // copies the bytes
   return sample ? f.dds_writecdr(writer, sample) : kBadParameter;                                // releases the sample

@@ -21,16 +21,16 @@ void Reader::on_data(dds::Entity, void* self) noexcept {
 
 std::vector<dds::Sample> Reader::take(std::uint32_t limit) {
   std::vector<dds::Sample> samples;
-  std::uint32_t left = limit;
+  std::uint32_t remaining = limit;
   pending_ = false;
-  while (left > 0) {
-    samples.reserve(samples.size() + std::min(left, dds::kBatch));
-    const std::uint32_t requested = std::min(left, dds::kBatch);
+  while (remaining > 0) {
+    samples.reserve(samples.size() + std::min(remaining, dds::kBatch));
+    const std::uint32_t request_size = std::min(remaining, dds::kBatch);
     const std::size_t before = samples.size();
     const std::uint32_t taken =
-        dds::take(reader_.entity(), requested, [&](dds::Sample&& sample) { samples.push_back(std::move(sample)); });
-    left -= static_cast<std::uint32_t>(samples.size() - before);
-    if (taken < requested) return samples;
+        dds::take(reader_.entity(), request_size, [&](dds::Sample&& sample) { samples.push_back(std::move(sample)); });
+    remaining -= static_cast<std::uint32_t>(samples.size() - before);
+    if (taken < request_size) return samples;
   }
   pending_ = true;
   return samples;

@@ -32,7 +32,7 @@ void Tap::on_data(dds::Entity reader, void* self) noexcept {
 }
 
 void Tap::drain(dds::Entity reader) {
-  const std::int64_t arrived = now();
+  const std::int64_t arrival_time = now();
   const auto keep = [&](const dds::Sample& sample) {
     if (messages_.ends.size() >= limits_.messages || messages_.bytes.size() >= limits_.size) {
       ++missed_;
@@ -40,7 +40,7 @@ void Tap::drain(dds::Entity reader) {
     }
     const auto bytes = sample.bytes();
     messages_.bytes.append(reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), limits_.head));
-    messages_.arrived.push_back(arrived);
+    messages_.arrived.push_back(arrival_time);
     messages_.sent.push_back(sample.info().source_timestamp);
     messages_.writers.push_back(sample.info().publication_handle);
     messages_.ends.push_back(messages_.bytes.size());

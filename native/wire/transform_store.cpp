@@ -31,7 +31,7 @@ void TransformStore::name_writer(Writer writer, const std::string& authority) {
   const ForkSafeLock lock(mutex_);
   Source& source = source_of(writer);
   buffer_->rename(source.stream, authority);
-  source.named = true;
+  source.has_name = true;
 }
 
 void TransformStore::forget_writer(Writer writer) {
@@ -51,18 +51,18 @@ void TransformStore::settle_statics() {
 
 std::vector<TransformStore::WriterStatistics> TransformStore::writers() const {
   const ForkSafeLock lock(mutex_);
-  std::vector<WriterStatistics> all;
+  std::vector<WriterStatistics> statistics;
   for (const auto& [writer, source] : sources_) {
-    all.push_back(
+    statistics.push_back(
         {writer, source.messages, source.received_at, source.period, source.delay, source.stream.name_problems});
   }
-  return all;
+  return statistics;
 }
 
 TransformStore::Source& TransformStore::source_of(Writer writer) {
   const auto found = sources_.find(writer);
   if (found != sources_.end()) return found->second;
-  if (sources_.size() >= kMaxSources) std::erase_if(sources_, [](const auto& entry) { return !entry.second.named; });
+  if (sources_.size() >= kMaxSources) std::erase_if(sources_, [](const auto& entry) { return !entry.second.has_name; });
   return sources_
       .emplace(writer,
                Source{.stream = buffer_->open_stream(is_static_, authority_, renaming_), .period = {}, .delay = {}})
@@ -70,7 +70,7 @@ TransformStore::Source& TransformStore::source_of(Writer writer) {
 }
 
 TransformStore::Ingest::~Ingest() {
-  if (store_.armed_.exchange(false) && store_.event_) store_.event_->set();
+  if (store_.is_armed_.exchange(false) && store_.event_) store_.event_->set();
 }
 
 void TransformStore::Ingest::add(Writer writer, std::span<const std::uint8_t> message) {

@@ -73,14 +73,14 @@ class TransformStore {
   std::int64_t stored_at() const { return stored_at_; }
 
   // Lets the next message set the event. Without this, messages wake no thread.
-  void arm() { armed_ = true; }
+  void arm() { is_armed_ = true; }
   // Returns the number of received messages.
   std::uint64_t received() const { return received_; }
 
  private:
   struct Source {
     TransformStream stream;
-    bool named = false;
+    bool has_name = false;
     std::uint64_t messages = 0;
     std::int64_t received_at = 0;
     ArrivalPeriod period;
@@ -98,7 +98,7 @@ class TransformStore {
   std::optional<PublishedStatics> published_;   // for static transforms in shared data
   std::atomic<std::int64_t> stored_at_ = 0;
   std::atomic<std::uint64_t> received_ = 0;
-  std::atomic<bool> armed_ = false;
+  std::atomic<bool> is_armed_ = false;
   const std::shared_ptr<Event> event_;
 };
 

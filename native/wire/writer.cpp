@@ -40,8 +40,8 @@ Writer::Writer(dds::Entity participant, dds::Entity topic, const QosProfile& pro
 }
 
 void Writer::write(const void* data, std::size_t size) const {
-  const dds::IoVector whole = dds::io_vector(data, size);
-  write({&whole, 1}, size);
+  const dds::IoVector vector = dds::io_vector(data, size);
+  write({&vector, 1}, size);
 }
 
 void Writer::write(std::span<const dds::IoVector> parts, std::size_t size) const {
@@ -53,8 +53,8 @@ void Writer::write(std::span<const dds::IoVector> parts, std::size_t size) const
 
 void Writer::forward(const void* data, std::size_t size) const {
   check_encapsulation(size);
-  const dds::IoVector whole = dds::io_vector(data, size);
-  dds::check(pass_on({&whole, 1}, size), "write");
+  const dds::IoVector vector = dds::io_vector(data, size);
+  dds::check(pass_on({&vector, 1}, size), "write");
 }
 
 dds::Code Writer::pass_on(std::span<const dds::IoVector> parts, std::size_t size) const {

@@ -24,11 +24,11 @@ void set_common_qos(EndpointQos& to, const Qos& qos, const std::string& user_dat
   to.durability().kind = qos.transient_local ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
   to.history().kind = qos.keep_all ? dds::KEEP_ALL_HISTORY_QOS : dds::KEEP_LAST_HISTORY_QOS;
   to.history().depth = qos.depth;
-  const std::int32_t most = qos.keep_all ? kKeepAll : qos.depth;
-  to.resource_limits().max_samples = most;
+  const std::int32_t history_depth = qos.keep_all ? kKeepAll : qos.depth;
+  to.resource_limits().max_samples = history_depth;
   to.resource_limits().max_instances = 1;
-  to.resource_limits().max_samples_per_instance = most;
-  to.resource_limits().allocated_samples = std::min(most, kAllocated);
+  to.resource_limits().max_samples_per_instance = history_depth;
+  to.resource_limits().allocated_samples = std::min(history_depth, kAllocated);
   to.deadline().period = to_duration(qos.deadline_ns);
   to.liveliness().kind = qos.manual_liveliness ? dds::MANUAL_BY_TOPIC_LIVELINESS_QOS : dds::AUTOMATIC_LIVELINESS_QOS;
   to.liveliness().lease_duration = to_duration(qos.lease_ns);

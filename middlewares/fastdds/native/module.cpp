@@ -153,12 +153,12 @@ void define_participant(nb::module_& module) {
                                              .qos_from_profiles = qos_from_profiles,
                                              .asynchronous = asynchronous,
                                              .properties = std::move(properties)};
-            std::shared_ptr<Participant> made;
+            std::shared_ptr<Participant> result;
             {
               WithoutGil release;
-              made = std::make_shared<Participant>(options, event);
+              result = std::make_shared<Participant>(options, event);
             }
-            new (self) PyParticipant{std::move(changed), std::move(made)};
+            new (self) PyParticipant{std::move(changed), std::move(result)};
           },
           nb::kw_only(), nb::arg("domain"), nb::arg("name"), nb::arg("user_data"), nb::arg("discovery_range"),
           nb::arg("peers"), nb::arg("profiles"), nb::arg("qos_from_profiles"), nb::arg("asynchronous"),
@@ -189,11 +189,12 @@ void check_accepted(const Writer& writer, std::span<const coframe_part> parts) {
   if (!writer.accepts(parts)) throw Error("could not write: the message is not valid");
 }
 
-std::int64_t write_bytes(PyWriter& self, const nb::bytes& message, bool checked, const rtps::SampleIdentity* related) {
-  const coframe_part whole{message.c_str(), message.size()};
+std::int64_t write_bytes(PyWriter& self, const nb::bytes& message, bool checked,
+                         const rtps::SampleIdentity* request_id) {
+  const coframe_part part{message.c_str(), message.size()};
   WithoutGil release;
-  if (checked) check_accepted(*self.native, {&whole, 1});
-  return self.native->write({&whole, 1}, message.size(), related);
+  if (checked) check_accepted(*self.native, {&part, 1});
+  return self.native->write({&part, 1}, message.size(), request_id);
 }
 
 // Sends a serialized message and sets a Python exception if that fails.
@@ -299,13 +300,14 @@ void construct(Holder<Native>* self, const PyParticipant& participant, const std
                nb::object store, Arguments&&... arguments) {
   const Qos native_qos = to_qos(qos);
   participant.get();
-  const std::shared_ptr<Participant> shared = participant.native;
-  std::unique_ptr<Native> made;
+  const std::shared_ptr<Participant> native_participant = participant.native;
+  std::unique_ptr<Native> result;
   {
     WithoutGil release;
-    made = std::make_unique<Native>(shared, topic, type, native_qos, user_data, std::forward<Arguments>(arguments)...);
+    result = std::make_unique<Native>(native_participant, topic, type, native_qos, user_data,
+                                      std::forward<Arguments>(arguments)...);
   }
-  new (self) Holder<Native>{std::move(event), std::move(store), std::move(made)};
+  new (self) Holder<Native>{std::move(event), std::move(store), std::move(result)};
 }
 
 void define_writer(nb::module_& module) {
@@ -330,8 +332,8 @@ void define_writer(nb::module_& module) {
       .def(
           "write_related",
           [](PyWriter& self, const nb::bytes& message, const nb::bytes& guid, std::int64_t sequence) {
-            const rtps::SampleIdentity related = to_identity(guid, sequence);
-            return write_bytes(self, message, false, &related);
+            const rtps::SampleIdentity request_id = to_identity(guid, sequence);
+            return write_bytes(self, message, false, &request_id);
           },
           nb::arg("message"), nb::arg("guid"), nb::arg("sequence"),
           "Send a message with a related sample identity; return its sequence number.")
@@ -395,14 +397,14 @@ nb::list take_identified(Holder<Reader>& self, std::uint32_t limit) {
 }
 
 nb::tuple take_tapped(Holder<Tap>& self) {
-  Tap::Messages tapped;
+  Tap::Messages messages;
   {
     WithoutGil release;
-    tapped = self.native->take();
+    messages = self.native->take();
   }
-  return nb::make_tuple(nb::bytes(tapped.bytes.data(), tapped.bytes.size()), values::array_bytes(tapped.ends),
-                        values::array_bytes(tapped.arrived), values::array_bytes(tapped.sent),
-                        values::array_bytes(tapped.writers));
+  return nb::make_tuple(nb::bytes(messages.bytes.data(), messages.bytes.size()), values::array_bytes(messages.ends),
+                        values::array_bytes(messages.arrived), values::array_bytes(messages.sent),
+                        values::array_bytes(messages.writers));
 }
 
 void define_readers(nb::module_& module) {

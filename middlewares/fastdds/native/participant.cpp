@@ -253,14 +253,14 @@ void EndpointChanges::add(EndpointChange change) {
 }
 
 std::vector<EndpointChange> EndpointChanges::take() {
-  std::unordered_map<Handle, EndpointChange> taken;
+  std::unordered_map<Handle, EndpointChange> taken_changes;
   {
     const std::lock_guard lock(mutex_);
-    taken.swap(changes_);
+    taken_changes.swap(changes_);
   }
   std::vector<EndpointChange> changes;
-  changes.reserve(taken.size());
-  for (auto& [handle, change] : taken) changes.push_back(std::move(change));
+  changes.reserve(taken_changes.size());
+  for (auto& [handle, change] : taken_changes) changes.push_back(std::move(change));
   return changes;
 }
 
@@ -296,12 +296,12 @@ std::shared_ptr<Counter> Participant::ignored_of(const std::string& topic) {
 }
 
 std::vector<std::pair<std::string, std::uint64_t>> Participant::take_ignored() {
-  std::vector<std::pair<std::string, std::uint64_t>> taken;
+  std::vector<std::pair<std::string, std::uint64_t>> counts;
   const std::lock_guard lock(mutex_);
   for (auto& [topic, counter] : ignored_) {
-    if (const std::uint64_t count = counter->exchange(0); count > 0) taken.emplace_back(topic, count);
+    if (const std::uint64_t count = counter->exchange(0); count > 0) counts.emplace_back(topic, count);
   }
-  return taken;
+  return counts;
 }
 
 dds::Topic* Participant::take_topic(const std::string& name, const std::string& type) {

@@ -17,11 +17,11 @@ std::int64_t now() {
 
 dds::DataReaderQos make_qos(const Participant& participant, dds::Subscriber& subscriber, const std::string& topic,
                             const Qos& qos, const std::string& user_data) {
-  dds::DataReaderQos made = subscriber.get_default_datareader_qos();
+  dds::DataReaderQos reader_qos = subscriber.get_default_datareader_qos();
   const bool from_profile = participant.options().qos_from_profiles;
-  if (from_profile) subscriber.get_datareader_qos_from_profile(topic, made);
-  set_common_qos(made, qos, user_data, from_profile);
-  return made;
+  if (from_profile) subscriber.get_datareader_qos_from_profile(topic, reader_qos);
+  set_common_qos(reader_qos, qos, user_data, from_profile);
+  return reader_qos;
 }
 
 }  // namespace
@@ -58,9 +58,9 @@ void DataReader::start(const Qos& qos, const std::string& user_data, bool reads_
   const std::string announced =
       offers_blocks_ ? user_data + blocks_entry(static_cast<std::uint32_t>(qos.depth)) : user_data;
   subscriber_ = participant_->subscriber(qos.partitions);
-  dds::Topic* shared = participant_->take_topic(topic_, type_);
+  dds::Topic* topic = participant_->take_topic(topic_, type_);
   participant_->readers_of(topic_)->add(own_key(), announced, true);
-  reader_ = subscriber_->create_datareader(shared, make_qos(*participant_, *subscriber_, topic_, qos, announced), this,
+  reader_ = subscriber_->create_datareader(topic, make_qos(*participant_, *subscriber_, topic_, qos, announced), this,
                                            dds::StatusMask::all());
   if (reader_ == nullptr) {
     participant_->forget_reader(topic_, own_key());
@@ -163,25 +163,25 @@ Tap::Tap(std::shared_ptr<Participant> participant, std::string topic, std::strin
 }
 
 void Tap::on_data(dds::DataReader& reader) {
-  const std::int64_t arrived = now();
+  const std::int64_t arrival_time = now();
   const std::lock_guard lock(mutex_);
   bool may_have_more = true;
   while (may_have_more) {
     const Batch batch(reader, blocks_, *ignored_, Batch::kMaxMessages);
-    batch.each([&](const Message& message) { store(message, arrived); });
+    batch.each([&](const Message& message) { store(message, arrival_time); });
     may_have_more = batch.full();
   }
   blocks_.queue_is_empty();
 }
 
-void Tap::store(const Message& message, std::int64_t arrived) {
+void Tap::store(const Message& message, std::int64_t arrival_time) {
   if (messages_.ends.size() >= limits_.messages || messages_.bytes.size() >= limits_.size) {
     ++missed_;
     return;
   }
   const auto head = message.bytes.first(std::min(message.bytes.size(), limits_.head));
   messages_.bytes.append(reinterpret_cast<const char*>(head.data()), head.size());
-  messages_.arrived.push_back(arrived);
+  messages_.arrived.push_back(arrival_time);
   messages_.sent.push_back(message.sent);
   messages_.writers.push_back(message.writer);
   messages_.ends.push_back(messages_.bytes.size());

@@ -215,7 +215,7 @@ class Tap final : public DataReader {
 
  private:
   void on_data(dds::DataReader& reader) override;
-  void store(const Message& message, std::int64_t arrived);
+  void store(const Message& message, std::int64_t arrival_time);
 
   const Limits limits_;
   std::mutex mutex_;  // protects the two members below

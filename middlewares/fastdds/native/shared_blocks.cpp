@@ -76,20 +76,20 @@ bool wait_for(const std::atomic<std::uint32_t>& complete, std::uint32_t number, 
 // A block that holds the number of bytes, rounded up so that messages of similar sizes fit as well.
 std::unique_ptr<Block> create_block(std::size_t size) {
   constexpr std::size_t kStep = std::size_t{1} << 16;
-  const std::size_t whole = (size + size / 8 + sizeof(BlockHeader) + kStep - 1) / kStep * kStep;
+  const std::size_t block_size = (size + size / 8 + sizeof(BlockHeader) + kStep - 1) / kStep * kStep;
   const int file = memfd_create("coframe", MFD_CLOEXEC | MFD_ALLOW_SEALING);
   if (file < 0) return nullptr;
   void* memory = MAP_FAILED;
   // Memory is reserved now: writing to it could otherwise end the process.
-  if (posix_fallocate(file, 0, static_cast<off_t>(whole)) == 0 &&
+  if (posix_fallocate(file, 0, static_cast<off_t>(block_size)) == 0 &&
       fcntl(file, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) == 0) {
-    memory = mmap(nullptr, whole, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    memory = mmap(nullptr, block_size, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
   }
   if (memory == MAP_FAILED) {
     ::close(file);
     return nullptr;
   }
-  return std::make_unique<Block>(memory, whole, file);
+  return std::make_unique<Block>(memory, block_size, file);
 }
 
 std::shared_ptr<Block> open_block(std::int32_t process, std::int32_t number) {
@@ -143,7 +143,7 @@ Block::~Block() {
 #endif
 }
 
-Block* BlockPool::take(std::size_t size, std::size_t readers, std::size_t kept) {
+Block* BlockPool::take(std::size_t size, std::size_t readers, std::size_t kept_count) {
   if (readers > kReaders) return nullptr;
   const auto fits = [&](const Block& block) {
     return block.capacity() >= size && block.capacity() / 4 <= size + (std::size_t{1} << 16);
@@ -155,11 +155,11 @@ Block* BlockPool::take(std::size_t size, std::size_t readers, std::size_t kept) 
       if (Block* block = reuse(i, readers)) return block;
     }
   }
-  for (std::size_t i = 0; i + kept < blocks_.size(); ++i) {
+  for (std::size_t i = 0; i + kept_count < blocks_.size(); ++i) {
     if (!fits(*blocks_[i])) continue;
     if (Block* block = reuse(i, readers)) return block;
   }
-  while (blocks_.size() >= kept + kSpare) forget(0);
+  while (blocks_.size() >= kept_count + kSpare) forget(0);
   if (!has_room(size)) {
     std::erase_if(blocks_, [](const auto& block) { return retire_if_finished(block->header()); });
     if (!has_room(size)) return nullptr;

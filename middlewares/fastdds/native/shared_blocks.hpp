@@ -78,9 +78,9 @@ class BlockPool {
   explicit BlockPool(const Guid& writer) : writer_(writer) {}
   ~BlockPool() { clear(); }
 
-  // Returns a block for a message of `size` bytes that `readers` readers will read. The `kept` newest messages keep
-  // their blocks until all readers have finished with them. Returns null if the message cannot be shared.
-  Block* take(std::size_t size, std::size_t readers, std::size_t kept);
+  // Returns a block for a message of `size` bytes that `readers` readers will read. The `kept_count` newest messages
+  // keep their blocks until all readers have finished with them. Returns null if the message cannot be shared.
+  Block* take(std::size_t size, std::size_t readers, std::size_t kept_count);
   // Refers to the message in the newest block. It may be sent before the message is complete.
   BlockReference reference(std::size_t size) const;
   // All bytes of the message in the newest block are there: wakes the readers that wait for them.
