@@ -119,7 +119,7 @@ def why(world):
 
 
 def terminal_demo(world):
-    table = tree_table(world.buffer, "base", world.demo, most=100).renderables[0]
+    table = tree_table(world.buffer, "base", world.demo, limit=100).renderables[0]
     names, ages = (list(table.columns[column].cells) for column in (0, 3))
     return {str(name).strip() for name, age in zip(names, ages, strict=True) if age.style == "red"}
 

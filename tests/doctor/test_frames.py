@@ -156,7 +156,7 @@ def test_changes_are_highlighted_and_omitted_rows_are_counted(tmp_path):
         run.tf("base_link", f"sensor{number}", START, static=True)
     (seen,) = observe_recording(run.write(tmp_path)).values()
     console = Console(record=True, width=80, force_terminal=True, file=io.StringIO())
-    console.print(tree(build_forest(seen), {"base_link": "moved"}, most=20))
+    console.print(tree(build_forest(seen), {"base_link": "moved"}, limit=20))
     text = console.export_text(styles=True)
     assert re.search(r"\x1b\[7;33mbase_link", text)
     assert "... and 24 more rows" in text

@@ -32,7 +32,7 @@ def test_the_newest_rows_stay_in_order_and_complete() -> None:
     rows = TransformRows()
     for number in range(1000):
         rows.append(batch(number))
-        rows.forget(before=number - 9, most=10_000)
+        rows.forget(cutoff=number - 9, limit=10_000)
         table = rows.table()
         first = max(number - 9, 0) * ROWS
         assert table.stamp.tolist() == list(range(first, (number + 1) * ROWS))
@@ -43,9 +43,9 @@ def test_rows_beyond_the_maximum_are_the_oldest() -> None:
     rows = TransformRows()
     for number in range(10):
         rows.append(batch(number))
-    rows.forget(before=2, most=500)
+    rows.forget(cutoff=2, limit=500)
     assert rows.forgotten_until == 0, "what is too old is not missing"
-    rows.forget(before=2, most=120)
+    rows.forget(cutoff=2, limit=120)
     assert rows.table().stamp.tolist() == list(range(380, 500))
     assert rows.forgotten_until == 7
 
@@ -53,7 +53,7 @@ def test_rows_beyond_the_maximum_are_the_oldest() -> None:
 def test_all_rows_can_be_forgotten() -> None:
     rows = TransformRows()
     rows.append(batch(1))
-    rows.forget(before=2, most=100)
+    rows.forget(cutoff=2, limit=100)
     assert len(rows) == 0
     assert rows.publishers() == set()
     rows.append(batch(3))
@@ -68,7 +68,7 @@ def test_memory_does_not_grow_with_time() -> None:
         for number in range(3000):
             rows.append(batch(number))
             if number % 50:  # Otherwise, the next rows arrive before old ones are forgotten.
-                rows.forget(before=number - 99, most=10_000)
+                rows.forget(cutoff=number - 99, limit=10_000)
             if number > 1000 and number % 7 == 0:
                 rows.append(batch(number, rows=20))  # The rate rises by 6 %, for which there is room.
             if number % 1000 == 999:
@@ -84,7 +84,7 @@ def test_rows_are_moved_without_a_copy_of_all() -> None:
     try:
         for number in range(1000):
             rows.append(batch(number))
-            rows.forget(before=number - 99, most=10_000)
+            rows.forget(cutoff=number - 99, limit=10_000)
             if number == 500:
                 before = tracemalloc.get_traced_memory()[0]
                 tracemalloc.reset_peak()
@@ -99,10 +99,10 @@ def test_rows_that_arrive_after_a_pause_take_the_place_of_old_ones() -> None:
     tracemalloc.start()
     try:
         for number in range(1000):
-            rows.forget(before=number - 99, most=10_000)
+            rows.forget(cutoff=number - 99, limit=10_000)
             rows.append(batch(number))
         before = tracemalloc.get_traced_memory()[0]
-        rows.forget(before=1060 - 99, most=10_000)
+        rows.forget(cutoff=1060 - 99, limit=10_000)
         rows.append(batch(1060, rows=60 * ROWS))
         assert tracemalloc.get_traced_memory()[0] < 1.01 * before
     finally:
@@ -113,7 +113,7 @@ def test_publishers_that_have_left_are_forgotten() -> None:
     rows = TransformRows()
     for number in range(2500):
         rows.append(batch(number, f"/robot{number}"))
-        rows.forget(before=number - 9, most=10_000)
+        rows.forget(cutoff=number - 9, limit=10_000)
     assert rows.publishers() == {f"/robot{number}" for number in range(2490, 2500)}
     table = rows.table()
     assert len(table.publishers) <= 1001

@@ -143,13 +143,13 @@ def _open(path: str, _flags: int) -> int:
     return descriptor
 
 
-def _check(found: os.stat_result, path: str | os.PathLike[str]) -> None:
-    if not stat.S_ISREG(found.st_mode):
-        kind = next((text for has, text in _KINDS if has(found.st_mode)), "the path is not a regular file")
+def _check(status: os.stat_result, path: str | os.PathLike[str]) -> None:
+    if not stat.S_ISREG(status.st_mode):
+        kind = next((text for has, text in _KINDS if has(status.st_mode)), "the path is not a regular file")
         if os.fspath(path).startswith(_UNNAMED_PIPES):
             kind = kind.replace("named pipe", "pipe")
         raise UnsuitableFileError(errno.EINVAL, kind, os.fspath(path))
-    stored = getattr(found, "st_blocks", 0) * _BLOCK
-    if stored >= _MIN_STORED and found.st_size > max(MAX_SPARSE, MAX_SPARSE_RATIO * stored):
-        reason = f"the file is sparse: the disk stores only {stored} of its {found.st_size} bytes"
+    stored = getattr(status, "st_blocks", 0) * _BLOCK
+    if stored >= _MIN_STORED and status.st_size > max(MAX_SPARSE, MAX_SPARSE_RATIO * stored):
+        reason = f"the file is sparse: the disk stores only {stored} of its {status.st_size} bytes"
         raise UnsuitableFileError(errno.EFBIG, reason, os.fspath(path))

@@ -46,9 +46,9 @@ def display_name(name: str) -> str:
     return _truncate_middle("".join(c if c.isprintable() else repr(c)[1:-1] for c in short), MAX_NAME_LENGTH)
 
 
-def _truncate_middle(text: str, longest: int) -> str:
-    half = longest // 2
-    return text if len(text) <= longest else f"{text[: half - 1]}\N{HORIZONTAL ELLIPSIS}{text[-half:]}"
+def _truncate_middle(text: str, max_length: int) -> str:
+    half = max_length // 2
+    return text if len(text) <= max_length else f"{text[: half - 1]}\N{HORIZONTAL ELLIPSIS}{text[-half:]}"
 
 
 def csv_cell(value: object) -> object:

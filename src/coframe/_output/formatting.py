@@ -65,16 +65,16 @@ def seconds(nanoseconds: int) -> str:
     return f"{sign}{size // SECOND}.{size % SECOND:09d}"
 
 
-def join_names(names: Iterable[str], *, most: int = _MAX_LISTED_NAMES) -> str:
-    """Return names as a comma-separated list: at most `most` names, then the number of the others.
+def join_names(names: Iterable[str], *, limit: int = _MAX_LISTED_NAMES) -> str:
+    """Return names as a comma-separated list: at most `limit` names, then the number of the others.
 
     Example:
         >>> join_names("abc"), join_names("abcdefg")
         ('a, b, c', 'a, b, c, d, e and 2 more')
     """
     every = list(names)
-    more = len(every) - most
-    return ", ".join(every[:most]) + (f" and {more} more" if more > 0 else "")
+    more = len(every) - limit
+    return ", ".join(every[:limit]) + (f" and {more} more" if more > 0 else "")
 
 
 def join_quoted(names: Iterable[str]) -> str:
@@ -82,25 +82,25 @@ def join_quoted(names: Iterable[str]) -> str:
     return join_names(repr(name) for name in names)
 
 
-def did_you_mean(name: str, known: Iterable[str], *, most: int = 1) -> str:
+def did_you_mean(name: str, known: Iterable[str], *, limit: int = 1) -> str:
     """Return a question that suggests names with a similar spelling; empty if there are none.
 
     Example:
         >>> did_you_mean("lidra", ["lidar", "camera"])
         "Did you mean 'lidar'?"
     """
-    meant = similar_names(name, known, most=most)
+    meant = similar_names(name, known, limit=limit)
     return f"Did you mean {' or '.join(map(repr, meant))}?" if meant else ""
 
 
-def similar_names(name: str, known: Iterable[str], *, most: int = 1) -> list[str]:
+def similar_names(name: str, known: Iterable[str], *, limit: int = 1) -> list[str]:
     """Return the names with the most similar spelling. Very long names and names beyond a limit are skipped."""
     import difflib  # noqa: PLC0415 - only errors need it
 
     if len(name) > MAX_COMPARED_LENGTH:
         return []
     compared = islice((each for each in known if len(each) <= MAX_COMPARED_LENGTH), MAX_COMPARED_NAMES)
-    return difflib.get_close_matches(name, list(compared), n=most)
+    return difflib.get_close_matches(name, list(compared), n=limit)
 
 
 def times(number: int) -> str:

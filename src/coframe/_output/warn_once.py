@@ -25,9 +25,9 @@ class WarnOnce:
         last: Issued once instead of the first warning beyond that number, or "" for none.
     """
 
-    def __init__(self, warn: Callable[[str], object], most: int = MAX_WARNINGS, last: str = LAST_WARNING) -> None:
+    def __init__(self, warn: Callable[[str], object], limit: int = MAX_WARNINGS, last: str = LAST_WARNING) -> None:
         self._warn = warn
-        self._max_warnings = most
+        self._max_warnings = limit
         self._last = last
         self._keys: set[Hashable] = set()
 

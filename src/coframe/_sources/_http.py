@@ -265,9 +265,9 @@ class HttpRanges:
             reason = "the server does not have the bytes that it should have by its own account"
         raise RemoteFileError.because(self.name, reason, hint, number)
 
-    def _body(self, answer: _RangeResponse, most: int) -> bytes:
-        """Return the body of a response, at most ``most`` bytes of it."""
-        wanted = min(answer.end - answer.start, most)
+    def _body(self, answer: _RangeResponse, limit: int) -> bytes:
+        """Return the body of a response, at most ``limit`` bytes of it."""
+        wanted = min(answer.end - answer.start, limit)
         data = b"".join(self._read_pieces(answer, wanted))
         if answer.end - answer.start > wanted or not answer.response.isclosed():
             self.close()  # The rest is not needed.

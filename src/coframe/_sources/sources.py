@@ -301,27 +301,27 @@ Location = str | os.PathLike[str] | Source
 """How a file is named: by its path, its URL, or a source."""
 
 
-def as_source(given: Any) -> Readable:
+def as_source(value: Any) -> Readable:
     """Return the path or the source that a user means.
 
     Args:
-        given: A path, a URL, bytes, or a file object for bytes. ``file:`` URLs are paths.
+        value: A path, a URL, bytes, or a file object for bytes. ``file:`` URLs are paths.
 
     Raises:
         RemoteFileError: The scheme of the URL is not known, or a file object cannot be read.
         TypeError: It is none of these.
     """
-    if isinstance(given, Path | Source):
-        return given
-    if isinstance(given, str):
-        return _parse_location(given)
-    if isinstance(given, os.PathLike):
-        path = os.fspath(given)
+    if isinstance(value, Path | Source):
+        return value
+    if isinstance(value, str):
+        return _parse_location(value)
+    if isinstance(value, os.PathLike):
+        path = os.fspath(value)
         return Path(os.fsdecode(path))
-    if isinstance(given, bytes | bytearray | memoryview):
-        return _Memory(bytes(given))
-    check_binary(given)
-    return _FileObject(given) if _can_seek(given) else _Memory(_read_all(given))
+    if isinstance(value, bytes | bytearray | memoryview):
+        return _Memory(bytes(value))
+    check_binary(value)
+    return _FileObject(value) if _can_seek(value) else _Memory(_read_all(value))
 
 
 def _parse_location(text: str) -> Readable:

@@ -55,7 +55,7 @@ class ClockOffset(NamedTuple):
         return "ahead of" if self.offset < 0 else "behind"
 
 
-def clock_offset(lags: NDArray[np.int64], arrived: NDArray[np.int64]) -> ClockOffset:
+def clock_offset(lags: NDArray[np.int64], arrival_times: NDArray[np.int64]) -> ClockOffset:
     """Return the offset of stamps from their delays.
 
     The drift is the slope of the delays over time. It is reported if it is linear, many times its standard error, and
@@ -63,7 +63,7 @@ def clock_offset(lags: NDArray[np.int64], arrived: NDArray[np.int64]) -> ClockOf
 
     Args:
         lags: (N,) arrival minus stamp in nanoseconds, N >= 1.
-        arrived: (N,) time of arrival in nanoseconds.
+        arrival_times: (N,) time of arrival in nanoseconds.
 
     Example:
         >>> arrived = np.arange(1000) * 10_000_000
@@ -71,9 +71,9 @@ def clock_offset(lags: NDArray[np.int64], arrived: NDArray[np.int64]) -> ClockOf
         '5.000 s +-0 ns, drift 20 ppm'
     """
     every = -(-len(lags) // _MAX_SAMPLES)
-    lags, arrived = lags[::every], arrived[::every]
+    lags, arrival_times = lags[::every], arrival_times[::every]
     middle = int(np.median(lags))  # Subtracting it keeps the precision of floats.
-    y, x = (lags - middle).astype(np.float64), (arrived - arrived[0]).astype(np.float64)
+    y, x = (lags - middle).astype(np.float64), (arrival_times - arrival_times[0]).astype(np.float64)
     slope = _slope(x, y)
     rest = y - slope * (x - np.median(x))
     spread = _MAD_TO_DEVIATION * float(np.median(np.abs(rest - np.median(rest))))

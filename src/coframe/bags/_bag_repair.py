@@ -187,9 +187,9 @@ class _Repair:
             for name, buffer in recording.buffers.items()
         }
 
-    def run(self, added: list[TransformStamped], progress: Callable[[int, int], object]) -> None:
+    def run(self, added_transforms: list[TransformStamped], progress: Callable[[int, int], object]) -> None:
         """Copy all messages, the static transforms first."""
-        self._write_statics_first(added)
+        self._write_statics_first(added_transforms)
         total = sum(topic.messages for topic in self._recording.topics.values())
         for number, (channel, received, data) in enumerate(self._recording.in_order()):
             if number % _PROGRESS_STEP == 0:
@@ -284,22 +284,22 @@ class _Repair:
             good = fixed
         return data if len(good) == len(message.transforms) else serialize(find(TF_MESSAGE)(transforms=good))
 
-    def _write_statics_first(self, added: list[TransformStamped]) -> None:
+    def _write_statics_first(self, added_transforms: list[TransformStamped]) -> None:
         """Write the static transforms that were recorded late and those to be added, at the start of the recording."""
         for channel, transforms in self._find_late_statics().items():
             route = self._route(channel)
             if route is not None:
                 self._write_statics(channel, route, transforms, "static transforms moved to the beginning")
         known = self._known_child_frames()
-        if new := [transform for transform in added if self._rename(transform.child_frame_id) not in known]:
+        if new := [transform for transform in added_transforms if self._rename(transform.child_frame_id) not in known]:
             topic = self._robot.tf_static_topic
             default = Channel(topic, TF_MESSAGE, "cdr", offered_qos=to_yaml([_STATIC_QOS]))
             channel = next((each for each in self._routes if absolute(each.topic) == topic), default)
             route = self._route(channel)
             if route is not None:
                 self._write_statics(channel, route, new, "static transforms added")
-        if len(new) < len(added):
-            skipped = len(added) - len(new)
+        if len(new) < len(added_transforms):
+            skipped = len(added_transforms) - len(new)
             self._change_counts["", "static transforms not added because the recording contains their frames"] += (
                 skipped
             )

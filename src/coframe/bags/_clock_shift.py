@@ -48,9 +48,9 @@ class ClockShift(NamedTuple):
         shifted = time + self.offset
         return shifted + round(self.drift * (shifted - self.middle)) if self.drift else shifted
 
-    def of_stamp(self, stamp: int, received: int) -> int:
+    def of_stamp(self, stamp: int, receive_time: int) -> int:
         """Return a shifted stamp; a stamp on a different clock from the receive time is not changed."""
-        return self.apply(stamp) if abs(stamp - received) < _MAX_STAMP_AGE else stamp
+        return self.apply(stamp) if abs(stamp - receive_time) < _MAX_STAMP_AGE else stamp
 
 
 def measured_shift(first: Recording, second: Recording, method: str) -> ClockShift:

@@ -88,10 +88,10 @@ class CloudColors:
         stamp: int,
         fixed: str | None,
         camera: str,
-        taken: int,
+        image_time: int,
     ) -> NDArray[np.float64]:
         """Return the points in the frame of the camera at the time of the image."""
         if fixed is None:
-            return transform_cloud(points, self._buffer, camera, source=frame, stamp=taken)
+            return transform_cloud(points, self._buffer, camera, source=frame, stamp=image_time)
         measured = np.full(len(points), stamp) if times is None else np.where(times == NO_TIME, stamp, times)
-        return deskew(points, measured, self._buffer, camera, source=frame, fixed=fixed, at=taken, on_error="nan")
+        return deskew(points, measured, self._buffer, camera, source=frame, fixed=fixed, at=image_time, on_error="nan")

@@ -254,18 +254,18 @@ class Clouds:
         elif (one := self._recording.message_at(self.topic, self._only_at)) is not None:
             yield one
 
-    def _cloud(self, recorded: RecordedMessage) -> Cloud | None:
+    def _cloud(self, recorded_message: RecordedMessage) -> Cloud | None:
         try:
-            message = recorded.message
+            message = recorded_message.message
             frame = self._recording.frame(str(message.header.frame_id))
-            measured = self._measured(message, recorded.stamp)
+            measured = self._measured(message, recorded_message.stamp)
             points, times = measured.points, measured.times
             finite = np.isfinite(points["x"]) & np.isfinite(points["y"]) & np.isfinite(points["z"])
             self._count(self.points_skipped, "have no finite coordinates", np.count_nonzero(~finite))
             points, times = points[finite], times[finite] if times is not None else None
-            points = self._add_colors(points, times, frame, recorded.stamp)
-            deskewed = self._transform_points(points, times, frame, recorded.stamp)
-            gaps = self._find_gaps(times, frame, recorded.stamp)
+            points = self._add_colors(points, times, frame, recorded_message.stamp)
+            deskewed = self._transform_points(points, times, frame, recorded_message.stamp)
+            gaps = self._find_gaps(times, frame, recorded_message.stamp)
         except TransformException as error:
             self.hint = self.hint or error.hint
             self._count(self.skipped, self._reason(error))
@@ -276,7 +276,7 @@ class Clouds:
             transformed = np.isfinite(points["x"])
             self._count(self.points_skipped, "have no transform at their own time", np.count_nonzero(~transformed))
             if self._max_gap is not None:
-                transformed = self._apply_max_gap(points, transformed, gaps, frame, recorded.stamp)
+                transformed = self._apply_max_gap(points, transformed, gaps, frame, recorded_message.stamp)
             if self._with_validity:
                 points = _structured_array(
                     {**{name: points[name] for name in points.dtype.names or ()}, "gap_ns": gaps}
@@ -285,7 +285,7 @@ class Clouds:
                 self._count_times(measured.read)
             read = measured.read if deskewed else None
             used = measured.same_times if read is None else read.field
-            return Cloud(recorded.stamp, self.frame, points[transformed], deskewed, used)
+            return Cloud(recorded_message.stamp, self.frame, points[transformed], deskewed, used)
         return None
 
     def _measured(self, message: Any, stamp: int) -> _MeasuredPoints:

@@ -22,23 +22,23 @@ _BATCH_BYTES = 64 << 20  # bytes of unpacked messages in a batch
 class UnpackedMessages(Storage):
     """Wraps another storage and unpacks its messages."""
 
-    def __init__(self, packed: Storage, compression: str) -> None:
-        super().__init__(packed.path, packed.problems)
-        self.format = packed.format
+    def __init__(self, storage: Storage, compression: str) -> None:
+        super().__init__(storage.path, storage.problems)
+        self.format = storage.format
         self.compressions = {f"{compression} (each message)"}
-        self._packed_messages = packed
+        self._packed_messages = storage
         self._compression = compression
         # The total size of messages with an unusual ratio is limited. Each of them is counted once.
-        self._budget = unpacked_budget(packed.size)
+        self._budget = unpacked_budget(storage.size)
         self._counted_positions: set[int] = set()  # their positions
 
     def channels(self) -> list[Channel]:
         """Return the channels of the wrapped storage."""
         return self._packed_messages.channels()
 
-    def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
+    def batches(self, is_selected: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
         """Yield the batches of the wrapped storage with unpacked messages."""
-        for batch in self._packed_messages.batches(wanted, progress):
+        for batch in self._packed_messages.batches(is_selected, progress):
             if batch.messages is None:
                 yield batch
                 continue
@@ -54,12 +54,12 @@ class UnpackedMessages(Storage):
             if batch.messages is not None:
                 yield from self._unpack_batch(batch.channel, batch, batch.messages)
 
-    def _unpack_batch(self, channel: Channel, packed: Batch, messages: Slices) -> Iterator[Batch]:
+    def _unpack_batch(self, channel: Channel, packed_batch: Batch, messages: Slices) -> Iterator[Batch]:
         """Yield a batch in parts, so that not all unpacked messages are in memory at the same time."""
         rows: list[int] = []
         unpacked: list[bytes] = []
         size = 0
-        for row, (position, message) in enumerate(zip(packed.positions.tolist(), messages.each(), strict=True)):
+        for row, (position, message) in enumerate(zip(packed_batch.positions.tolist(), messages.each(), strict=True)):
             try:
                 data = self._unpack(position, message)
             except DamagedError as error:
@@ -69,9 +69,9 @@ class UnpackedMessages(Storage):
             unpacked.append(data)
             size += len(data)
             if size >= _BATCH_BYTES:
-                yield Batch(channel, packed.received[rows], packed.positions[rows], Slices.join(unpacked))
+                yield Batch(channel, packed_batch.received[rows], packed_batch.positions[rows], Slices.join(unpacked))
                 rows, unpacked, size = [], [], 0
-        yield Batch(channel, packed.received[rows], packed.positions[rows], Slices.join(unpacked))
+        yield Batch(channel, packed_batch.received[rows], packed_batch.positions[rows], Slices.join(unpacked))
 
     def _unpack(self, position: int, message: bytes | memoryview) -> bytes:
         usual = MAX_RATIO * len(message)

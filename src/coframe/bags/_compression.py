@@ -70,20 +70,20 @@ def unpack_beginning(compression: str, data: bytes | memoryview, size: int) -> b
     return unpack(compression, data, size)[:size]
 
 
-def unpack_message(compression: str, data: bytes | memoryview, largest: int = MAX_UNPACKED_MESSAGE) -> bytes:
+def unpack_message(compression: str, data: bytes | memoryview, max_bytes: int = MAX_UNPACKED_MESSAGE) -> bytes:
     """Unpack an individually compressed message, or the part before the first damage.
 
     Args:
         compression: ``"zstd"``, ``"lz4"`` (frames), ``"bz2"`` or ``""``.
         data: The compressed bytes.
-        largest: The maximum number of unpacked bytes.
+        max_bytes: The maximum number of unpacked bytes.
 
     Raises:
-        DamagedError: No data can be unpacked, the message is larger than `largest` or implausibly large for its packed
-            size, or the compression is unknown.
+        DamagedError: No data can be unpacked, the message is larger than `max_bytes` or implausibly large for its
+            packed size, or the compression is unknown.
         RecordingError: The package for this compression is not installed.
     """
-    limit = min(largest, max(_MAX_SMALL_SIZE, _MAX_RATIO * len(data)))
+    limit = min(max_bytes, max(_MAX_SMALL_SIZE, _MAX_RATIO * len(data)))
     # One byte more than the limit shows that the message is too large, even if the file states another size.
     if _declared_size(compression, data) > limit or len(unpacked := unpack(compression, data, limit + 1)) > limit:
         raise DamagedError(f"a message of {len(data)} bytes unpacks to more than the maximum of {limit} bytes")

@@ -241,9 +241,9 @@ def _unpack_file(file: Path, problems: Problems, closing: ExitStack) -> tuple[Pa
 class _PackedFile:
     """A compressed file that ends early if it unpacks to fewer bytes than it has (empty blocks can fill a file)."""
 
-    def __init__(self, packed: BinaryIO, whole: BinaryIO) -> None:
-        self._packed_file = packed
-        self._unpacked_file = whole
+    def __init__(self, packed_file: BinaryIO, unpacked_file: BinaryIO) -> None:
+        self._packed_file = packed_file
+        self._unpacked_file = unpacked_file
 
     @property
     def is_implausible(self) -> bool:

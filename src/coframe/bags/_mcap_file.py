@@ -85,9 +85,9 @@ class McapStorage(ChunkedStorage):
         """Return the channels found so far."""
         return list(self._channels.values())
 
-    def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
+    def batches(self, is_selected: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
         """Yield all messages in file order, including the bytes of unwanted ones, because chunks contain both."""
-        del wanted
+        del is_selected
         done = 0
         chunks = self._read_summary()
         missing = set(chunks)

@@ -77,9 +77,9 @@ class MessageFile(Storage):
         """Return the channels found so far."""
         return list(self._channels)
 
-    def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
+    def batches(self, is_selected: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
         """Yield all messages. An exception of the format ends the file and is added to the problems."""
-        del wanted
+        del is_selected
         pending: dict[Channel, _PendingBatch] = {}
         size = count = 0
         for channel, received, data in self._valid_messages():

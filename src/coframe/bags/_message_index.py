@@ -313,12 +313,12 @@ class MessageIndex:
         heads = Slices.join([track.read_beginning(position) for position in track.positions])
         return reader.stamps(heads, received)
 
-    def to_ros_time(self, received: NDArray[np.int64]) -> NDArray[np.int64]:
+    def to_ros_time(self, receive_time: NDArray[np.int64]) -> NDArray[np.int64]:
         """Convert receive times to the ROS clock, if /clock was recorded."""
         if self._clock is None:
-            return received
+            return receive_time
         wall, simulated = self._clock
-        elapsed = np.interp((received - wall[0]).astype(np.float64), wall - wall[0], simulated - simulated[0])
+        elapsed = np.interp((receive_time - wall[0]).astype(np.float64), wall - wall[0], simulated - simulated[0])
         return np.asarray(simulated[0] + np.rint(elapsed).astype(np.int64))
 
     @cached_property

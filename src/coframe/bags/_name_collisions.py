@@ -35,7 +35,7 @@ _MAX_EDGES = 20
 def require_one_robot_per_name(
     recordings: Sequence[Recording],
     topics: Sequence[Sequence[str]],
-    merged: MergedNames,
+    merged_names: MergedNames,
     shifts: Sequence[ClockShift | None],
 ) -> None:
     """Raise an error if two recordings contain different messages with one name at the same time.
@@ -45,7 +45,7 @@ def require_one_robot_per_name(
     Args:
         recordings: The recordings to merge.
         topics: The topics that are copied, for each recording.
-        merged: The new names.
+        merged_names: The new names.
         shifts: The shift of the times of each recording, or None.
 
     Raises:
@@ -56,7 +56,7 @@ def require_one_robot_per_name(
         begin, end = max(spans[0][0], spans[1][0]), min(spans[0][1], spans[1][1])
         if end - begin <= _MIN_OVERLAP:
             continue
-        found = [*_frames(recordings, merged, one, other), *_topics(recordings, topics, merged, one, other)]
+        found = [*_frames(recordings, merged_names, one, other), *_topics(recordings, topics, merged_names, one, other)]
         if found:
             raise RecordingError(
                 f"{recordings[one].path} and {recordings[other].path} were recorded at the same time, and "
@@ -71,12 +71,12 @@ def _span(recording: Recording, shift: ClockShift | None) -> tuple[int, int]:
     return times if shift is None else (shift.apply(times[0]), shift.apply(times[1]))
 
 
-def _frames(recordings: Sequence[Recording], merged: MergedNames, one: int, other: int) -> Iterator[str]:
+def _frames(recordings: Sequence[Recording], merged_names: MergedNames, one: int, other: int) -> Iterator[str]:
     """Yield the moving frames that both recordings contain with different stamps, on topics that are joined."""
-    pair = [_buffers(recordings[number], merged, number) for number in (one, other)]
+    pair = [_buffers(recordings[number], merged_names, number) for number in (one, other)]
     for topic in sorted(pair[0].keys() & pair[1].keys()):
         first, second = (
-            _moving_edges(each[topic], merged.frame(n)) for each, n in zip(pair, (one, other), strict=True)
+            _moving_edges(each[topic], merged_names.frame(n)) for each, n in zip(pair, (one, other), strict=True)
         )
         for name in islice(sorted(first.keys() & second.keys()), _MAX_EDGES):
             stamps = (_edge_stamps(each[topic], edges[name]) for each, edges in zip(pair, (first, second), strict=True))
@@ -84,9 +84,9 @@ def _frames(recordings: Sequence[Recording], merged: MergedNames, one: int, othe
                 yield f"frame {name}"
 
 
-def _buffers(recording: Recording, merged: MergedNames, number: int) -> dict[str, Buffer]:
+def _buffers(recording: Recording, merged_names: MergedNames, number: int) -> dict[str, Buffer]:
     """Return the transforms of each namespace by the new name of their topic."""
-    return {merged.topic(number, f"{namespace}/tf"): buffer for namespace, buffer in recording.buffers.items()}
+    return {merged_names.topic(number, f"{namespace}/tf"): buffer for namespace, buffer in recording.buffers.items()}
 
 
 def _moving_edges(buffer: Buffer, rename: Callable[[str], str]) -> dict[str, tuple[str, str]]:
@@ -103,14 +103,14 @@ def _edge_stamps(buffer: Buffer, edge: tuple[str, str]) -> NDArray[np.int64]:
 
 
 def _topics(
-    recordings: Sequence[Recording], topics: Sequence[Sequence[str]], merged: MergedNames, one: int, other: int
+    recordings: Sequence[Recording], topics: Sequence[Sequence[str]], merged_names: MergedNames, first: int, second: int
 ) -> Iterator[str]:
     """Yield the topics that both recordings contain with different stamps."""
-    new = [{merged.topic(number, name): name for name in topics[number]} for number in (one, other)]
+    new = [{merged_names.topic(number, name): name for name in topics[number]} for number in (first, second)]
     for name in sorted(new[0].keys() & new[1].keys()):
-        if merged.is_shared(name):
+        if merged_names.is_shared(name):
             continue
-        pair = [(recordings[n], new[i][name]) for i, n in enumerate((one, other))]
+        pair = [(recordings[n], new[i][name]) for i, n in enumerate((first, second))]
         if any(_has_transforms(recording, topic) or not recording.may_have_header(topic) for recording, topic in pair):
             continue
         if _differ(*(recording.stamps(topic) for recording, topic in pair)):

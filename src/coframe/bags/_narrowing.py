@@ -80,16 +80,16 @@ def _from_part(
     return None if table is None or any(map(_may_differ, table.columns)) else table
 
 
-def _may_differ(found: TableColumn) -> bool:
+def _may_differ(column: TableColumn) -> bool:
     """Return whether a message or a transform outside of the part may be nearer to a row."""
-    is_far = found.age is not None and bool((np.abs(found.age[found.valid]) > MARGIN - MAX_DELAY).any())
-    return is_far or not found.valid.all()
+    is_far = column.age is not None and bool((np.abs(column.age[column.valid]) > MARGIN - MAX_DELAY).any())
+    return is_far or not column.valid.all()
 
 
-def _nanoseconds(when: StampLike | str | None, recording: Recording) -> int | None:
-    if isinstance(when, str):
-        return parse_time_point(when, (recording.received_start, recording.received_end))
-    return None if when is None else time.stamp_ns(when)
+def _nanoseconds(time_point: StampLike | str | None, recording: Recording) -> int | None:
+    if isinstance(time_point, str):
+        return parse_time_point(time_point, (recording.received_start, recording.received_end))
+    return None if time_point is None else time.stamp_ns(time_point)
 
 
 def _is_prompt(part: Recording, query: TableQuery) -> bool:

@@ -50,10 +50,10 @@ def files_of_source(source: Source, problems: Problems) -> tuple[list[Source], d
     return [source.inner(name) for name in listed], metadata
 
 
-def _existing_files(listed: list[str], names: list[str], problems: Problems) -> list[str]:
+def _existing_files(listed_names: list[str], names: list[str], problems: Problems) -> list[str]:
     """Return the files of a folder that exist: those in the metadata first, then others."""
     found = []
-    for name in listed:
+    for name in listed_names:
         there = [each for each in (name, f"{name}{COMPRESSED}") if each in names]
         found += there[:1]
         if not there:

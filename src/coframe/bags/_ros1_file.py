@@ -64,9 +64,9 @@ class Ros1Storage(ChunkedStorage):
         """Return the channels found so far."""
         return list(self._channels.values())
 
-    def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
+    def batches(self, is_selected: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
         """Yield all messages in file order, including the bytes of unwanted ones, because chunks contain both."""
-        del wanted
+        del is_selected
         for offset, opcode, header, start, end in self._walk(self._read_index()):
             if opcode == _CHUNK:
                 yield from self._chunk_batches(offset)

@@ -68,7 +68,7 @@ class SqliteStorage(Storage):
         """Return the channels found so far."""
         return list(self._channels.values())
 
-    def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
+    def batches(self, is_selected: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
         """Yield the messages of the wanted channels with their bytes, then the others without bytes."""
         total = 0
         try:
@@ -85,7 +85,7 @@ class SqliteStorage(Storage):
                 rows = sum(row.is_message for row in self._leaves.rows())
             if not self._channels and rows:
                 self.add_problem(f"its topics are lost, so that {count(rows, 'message')} in it cannot be read")
-        with_data = [number for number, channel in self._channels.items() if wanted(channel)]
+        with_data = [number for number, channel in self._channels.items() if is_selected(channel)]
         without_data = [number for number in self._channels if number not in with_data]
         for numbers, column in ((with_data, _DATA), (without_data, _SIZE)):
             yield from self._rows(numbers, column, lambda row: progress(self.size * row // max(total, row, 1)))

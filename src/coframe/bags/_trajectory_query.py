@@ -177,8 +177,8 @@ def _no_stamps_error(recording: Recording) -> RecordingError:
     )
 
 
-def _nanoseconds(when: int | str | None, recording: Recording) -> int | None:
-    return parse_time_point(when, recording.span) if isinstance(when, str) else when
+def _nanoseconds(time_point: int | str | None, recording: Recording) -> int | None:
+    return parse_time_point(time_point, recording.span) if isinstance(time_point, str) else time_point
 
 
 def stamps_at_rate(span: tuple[int, int], start: int | None, stop: int | None, rate: float) -> NDArray[np.int64]:

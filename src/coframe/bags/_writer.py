@@ -268,7 +268,7 @@ class Writer:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def _write_message(self, topic: _Topic, data: bytes, received: int, published: int) -> None:
+    def _write_message(self, topic: _Topic, data: bytes, receive_time: int, published: int) -> None:
         if topic.channel is None:
             topic.channel = self._file.add_channel(
                 topic.name,
@@ -278,17 +278,17 @@ class Writer:
                 definition_format=topic.definition_format,
                 metadata={"offered_qos_profiles": topic.offered_qos},
             )
-        self._file.write(topic.channel, data, received, published)
+        self._file.write(topic.channel, data, receive_time, published)
 
     def _count(self, topic: _Topic) -> int:
         return topic.before + (0 if topic.channel is None else self._file.counts[topic.channel])
 
-    def _is_full(self, received: int) -> bool:
+    def _is_full(self, receive_time: int) -> bool:
         if self._first_time is None:
             return False
         if self._max_size is not None and self._file.size - self._first_size >= self._max_size:
             return True
-        return self._max_duration is not None and received - self._first_time >= self._max_duration
+        return self._max_duration is not None and receive_time - self._first_time >= self._max_duration
 
     def _next_file(self) -> None:
         self._file.close()
@@ -298,12 +298,12 @@ class Writer:
             topic.before, topic.channel = self._count(topic), None
         self._file = self._open()
 
-    def _begin_file(self, received: int) -> None:
+    def _begin_file(self, receive_time: int) -> None:
         """Write the latched messages with the current receive time, so that each file can be read on its own."""
         for topic in self._contents.topics:
             for message in topic.latched.messages if topic.latched else []:
-                self._write_message(topic, message.data, received, message.published)
-        self._first_time, self._first_size = received, self._file.size
+                self._write_message(topic, message.data, receive_time, message.published)
+        self._first_time, self._first_size = receive_time, self._file.size
 
     def _open(self) -> FileWriter:
         name = f"{self.path.name}_{len(self._contents.files)}{self._format.suffixes[0]}"

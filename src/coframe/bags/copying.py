@@ -230,17 +230,17 @@ class _Copy:
     """
 
     def __init__(
-        self, writer: Writer, merged: MergedNames, shifts: list[ClockShift | None], skipped: Counter[str]
+        self, writer: Writer, merged_names: MergedNames, shifts: list[ClockShift | None], skipped: Counter[str]
     ) -> None:
         self._writer = writer
-        self._merged_names = merged
+        self._merged_names = merged_names
         self._shifts = shifts
         self._skipped_counts = skipped
         self._routes: dict[Channel, _Route | None] = {}
         self._types = RecordedTypes()
         self.problems: list[str] = []
 
-    def add(self, recording: int, channel: Channel, received: int, data: bytes) -> None:
+    def add(self, recording: int, channel: Channel, receive_time: int, data: bytes) -> None:
         """Write a message, or count it if that is not possible."""
         if channel not in self._routes:
             self._routes[channel] = self._route(recording, channel)
@@ -249,14 +249,14 @@ class _Copy:
             converted = None if route is None else route.convert(data)
             shift = self._shifts[recording]
             if converted is not None and shift is not None and route is not None and route.stamps is not None:
-                new_stamp = partial(shift.of_stamp, received=received - shift.offset)
+                new_stamp = partial(shift.of_stamp, received=receive_time - shift.offset)
                 converted, _ = route.stamps.change(converted, new_stamp)
         except Exception:  # noqa: BLE001 - the libraries raise errors of many kinds for damaged bytes
             converted = None
-        if route is None or converted is None or received < 0:
+        if route is None or converted is None or receive_time < 0:
             self._skipped_counts[channel.topic] += 1
         else:
-            self._writer.write(route.topic, converted, received)
+            self._writer.write(route.topic, converted, receive_time)
 
     def _route(self, recording: int, channel: Channel) -> _Route | None:
         """Return the route of a channel, or None if its messages cannot be converted."""

@@ -335,13 +335,13 @@ class Recording:
         """
         return self._index.received(self._index.find_topic(topic))
 
-    def to_ros_time(self, received: NDArray[np.int64]) -> NDArray[np.int64]:
+    def to_ros_time(self, receive_time: NDArray[np.int64]) -> NDArray[np.int64]:
         """Convert receive times to the clock of ``/clock``; unchanged if that was not recorded.
 
         Args:
-            received: (N,) nanoseconds, as returned by :meth:`received`.
+            receive_time: (N,) nanoseconds, as returned by :meth:`receive_time`.
         """
-        return self._index.to_ros_time(received)
+        return self._index.to_ros_time(receive_time)
 
     def message_at(self, topic: str, stamp: StampLike) -> RecordedMessage | None:
         """Return the newest message of a topic at a time, or None before the first one.

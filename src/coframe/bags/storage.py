@@ -148,11 +148,11 @@ class Storage(ABC):
         """Return the channels found so far; after :meth:`batches` all of them, including those without messages."""
 
     @abstractmethod
-    def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
+    def batches(self, is_selected: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
         """Yield all messages that can be read; damage is added to the problems.
 
         Args:
-            wanted: Returns whether the bytes of a channel's messages are needed.
+            is_selected: Returns whether the bytes of a channel's messages are needed.
             progress: Called regularly with the number of bytes of the file that have been read.
         """
 

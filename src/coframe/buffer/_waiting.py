@@ -54,13 +54,13 @@ async def transform_or_timeout(
     loop = asyncio.get_running_loop()
     future: asyncio.Future[Transform | None] = loop.create_future()
 
-    def settle(found: Transform | None) -> None:
+    def settle(transform: Transform | None) -> None:
         if not future.done():
-            future.set_result(found)
+            future.set_result(transform)
 
-    def settle_in_loop(found: Transform | None) -> None:
+    def settle_in_loop(transform: Transform | None) -> None:
         with contextlib.suppress(RuntimeError):  # the event loop is closed
-            loop.call_soon_threadsafe(settle, found)
+            loop.call_soon_threadsafe(settle, transform)
 
     cancel = buffer._dispatcher.wait(
         lambda mailbox, token: _core.wait(buffer, mailbox, token, target, source, stamp),

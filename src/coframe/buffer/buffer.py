@@ -326,8 +326,8 @@ class Buffer(_many_lookups.Buffer):
             A handle. Close it to remove the callback; the callback is also removed together with the buffer.
         """
 
-        def report(changed: list[str]) -> None:
-            for edge in self.edges(changed):
+        def report(changed_frames: list[str]) -> None:
+            for edge in self.edges(changed_frames):
                 callback(edge)
 
         start = lambda mailbox, token: _core.watch(self, mailbox, token, child or "")  # noqa: E731 - one expression

@@ -127,7 +127,7 @@ def _edge_info(
     intervals: tuple[float, float, float],
     counts: tuple[int, int, int, int, int, int, int],
     now: int | None,
-    present: int | None,
+    current_time: int | None,
 ) -> EdgeInfo:
     child, parent, static, samples, oldest, newest, _, authority = frame
     mean, deviation, longest = intervals
@@ -148,18 +148,18 @@ def _edge_info(
         late=late,
         repeated=repeated,
         rejected={reason: count for reason, count in zip(_REASONS, refused, strict=True) if count},
-        stale=_is_stale(buffer, frame, present),
+        stale=_is_stale(buffer, frame, current_time),
     )
 
 
 def _is_stale(
-    buffer: Buffer, frame: tuple[str, str, bool, int, int, int, float, str], present: int | None
+    buffer: Buffer, frame: tuple[str, str, bool, int, int, int, float, str], current_time: int | None
 ) -> bool | None:
     child, parent, static, samples, oldest, newest, *_ = frame
     if static or not samples:
         return False
-    if present is None:
+    if current_time is None:
         return None
-    silence = present - newest
+    silence = current_time - newest
     # The period is read only if the result depends on it.
     return is_stale(silence, 0.0) and is_stale(silence, buffered_period(buffer, parent, child, oldest, newest, samples))

@@ -106,10 +106,10 @@ def gap_limit(max_gap: DurationLike | None, on_gap: str) -> int | None:
 
 
 def gap_error(
-    found: Validity, row: int, limit: int, target: str, source: str, stamp: int, *, rows: int = 1
+    validity: Validity, row: int, limit: int, target: str, source: str, stamp: int, *, rows: int = 1
 ) -> ExtrapolationException:
     """Return the exception for a pose interpolated over a gap that is too long."""
-    gap, child = int(found.gaps[row]), str(found.edges[row])
+    gap, child = int(validity.gaps[row]), str(validity.edges[row])
     others = f" (one of {count(rows, 'such time')})" if rows > 1 else ""
     return ExtrapolationException.with_details(
         f"The transform from {source!r} to {target!r} at {stamp} ns{others} lies in a gap of {duration(gap)} between "

@@ -97,8 +97,8 @@ class _Track:
         own = (self.stamps - origin) / SECOND
         row = np.clip(np.searchsorted(own, times, side="right") - 1, 0, len(own) - 2)
         share = ((times - own[row]) / (own[row + 1] - own[row]))[:, None]
-        turn = quaternion.multiply(self.turn[row], quaternion.from_rotvec(self._vectors[row] * share))
-        return turn, self.place[row] * (1.0 - share) + self.place[row + 1] * share
+        rotation = quaternion.multiply(self.turn[row], quaternion.from_rotvec(self._vectors[row] * share))
+        return rotation, self.place[row] * (1.0 - share) + self.place[row + 1] * share
 
     def covers(self, start: Array, end: Array, origin: int) -> NDArray[np.bool_]:
         """Return which intervals are inside the trajectory and without gaps."""
@@ -109,8 +109,8 @@ class _Track:
 
     def motions(self, start: Array, end: Array, origin: int) -> _Motions:
         """Return the motions of the frame between pairs of times, in the frame at the first one."""
-        (turn, place), (later, there) = self.at(start, origin), self.at(end, origin)
-        back = quaternion.inverse(turn)
+        (rotation, place), (later, there) = self.at(start, origin), self.at(end, origin)
+        back = quaternion.inverse(rotation)
         return _Motions(quaternion.multiply(back, later), quaternion.rotate(back, there - place))
 
 
@@ -178,23 +178,23 @@ def calibrate_hand_eye(
     return calibrate_rigid(gripper, seen.replace(target=None, source=None), prior=prior, time_offset=time_offset)
 
 
-def _start_offset(one: _Track, other: _Track) -> float | None:
+def _start_offset(first: _Track, second: _Track) -> float | None:
     """Return the time offset by the rates of rotation in seconds, or None if the motion does not show it."""
     try:
-        return motion_offset((one.stamps, one.turn), (other.stamps, other.turn)).offset / SECOND
+        return motion_offset((first.stamps, first.turn), (second.stamps, second.turn)).offset / SECOND
     except TrajectoryError:
         return None
 
 
-def _pairs(one: _Track, other: _Track, origin: int, offset: float) -> tuple[Array, Array]:
+def _pairs(first: _Track, second: _Track, origin: int, offset: float) -> tuple[Array, Array]:
     """Return random pairs of times, in seconds, between which both trajectories have no gap."""
     random = np.random.default_rng(0)
-    span = max(float(one.stamps[-1] - origin) / SECOND, 1e-9)
-    wanted = int(np.clip(min(len(one.stamps), len(other.stamps)), MIN_PAIRS, MAX_PAIRS))
+    span = max(float(first.stamps[-1] - origin) / SECOND, 1e-9)
+    wanted = int(np.clip(min(len(first.stamps), len(second.stamps)), MIN_PAIRS, MAX_PAIRS))
     begin = random.uniform(0.0, span, wanted * _MAX_SAMPLES_OF_PAIRS)
     end = begin + random.uniform(*_WINDOWS, len(begin))
     margin = 0.1  # seconds by which the offset may change
-    known = one.covers(begin, end, origin) & other.covers(begin - offset - margin, end - offset + margin, origin)
+    known = first.covers(begin, end, origin) & second.covers(begin - offset - margin, end - offset + margin, origin)
     if np.count_nonzero(known) < MIN_PAIRS:
         raise CalibrationError(
             f"the trajectories have only {np.count_nonzero(known)} common motions without gaps; {MIN_PAIRS} are needed",
@@ -206,11 +206,11 @@ def _pairs(one: _Track, other: _Track, origin: int, offset: float) -> tuple[Arra
 class _Problem:
     """The residuals of a X = X b over pairs of times, and their solution."""
 
-    def __init__(self, one: _Track, other: _Track, origin: int, begin: Array, end: Array, prior: Transform) -> None:
-        self._one, self._other, self._origin = one, other, origin
+    def __init__(self, first: _Track, second: _Track, origin: int, begin: Array, end: Array, prior: Transform) -> None:
+        self._one, self._other, self._origin = first, second, origin
         self._begin, self._end = begin, end
         self._prior = prior
-        self._body = one.motions(begin, end, origin)
+        self._body = first.motions(begin, end, origin)
 
     def _sensor(self, offset: float) -> _Motions:
         return self._other.motions(self._begin - offset, self._end - offset, self._origin)
@@ -326,9 +326,9 @@ class _Problem:
             np.linalg.norm(translation, axis=1),
         )
 
-    def _reference(self, turn: Array, place: Array, offset: float) -> Transform:
+    def _reference(self, rotation: Array, place: Array, offset: float) -> Transform:
         """Return the mean pose of the second root in the first one."""
-        a, x = Transform(*self._one.at(self._begin, self._origin)[::-1]), Transform(place, turn)
+        a, x = Transform(*self._one.at(self._begin, self._origin)[::-1]), Transform(place, rotation)
         b = Transform(*self._other.at(self._begin - offset, self._origin)[::-1])
         each = a @ x @ b.inverse()
         rotations = np.asarray(each.quaternion)

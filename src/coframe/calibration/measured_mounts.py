@@ -207,8 +207,8 @@ def _mean_pose(each: Transform) -> tuple[Transform, float]:
     white = np.cov(rows.T) / len(rows)
     if np.trace(white) > np.trace(covariance):
         covariance = white
-    turn = quaternion.multiply(quaternion.from_rotvec(center[3:]), mean)
-    return Transform(center[:3], turn, covariance=(covariance + covariance.T) / 2.0), float(ratios.max())
+    rotation = quaternion.multiply(quaternion.from_rotvec(center[3:]), mean)
+    return Transform(center[:3], rotation, covariance=(covariance + covariance.T) / 2.0), float(ratios.max())
 
 
 def _without_outliers(rows: Array) -> tuple[Array, Array]:

@@ -77,11 +77,11 @@ class Movement:
 
 def change_between(before: Transform, after: Transform) -> MountChange:
     """Return how far a mount is from an earlier one; both have covariances."""
-    turn = quaternion.to_rotvec(quaternion.multiply(after.quaternion, quaternion.inverse(before.quaternion)))
+    rotation = quaternion.to_rotvec(quaternion.multiply(after.quaternion, quaternion.inverse(before.quaternion)))
     step = np.asarray(after.translation) - np.asarray(before.translation)
     covariance = np.asarray(before.covariance) + np.asarray(after.covariance)
     meters, meters_deviation = _size(step, covariance[:3, :3])
-    radians, radians_deviation = _size(np.asarray(turn), covariance[3:, 3:])
+    radians, radians_deviation = _size(np.asarray(rotation), covariance[3:, 3:])
     return MountChange(meters, meters_deviation, radians, radians_deviation)
 
 
@@ -128,8 +128,8 @@ def find_movements(series: Sequence[MeasuredMount]) -> list[Movement]:
     return found
 
 
-def _is_same_publication(one: MeasuredMount, other: MeasuredMount) -> bool:
-    if one.published is None or other.published is None:
-        return one.published is None and other.published is None
-    meters, radians = one.published.distance(other.published)
+def _is_same_publication(first: MeasuredMount, second: MeasuredMount) -> bool:
+    if first.published is None or second.published is None:
+        return first.published is None and second.published is None
+    meters, radians = first.published.distance(second.published)
     return bool(meters <= _SAME_PUBLISHED[0] and radians <= _SAME_PUBLISHED[1])

@@ -137,7 +137,7 @@ def lens_of(name: str, coefficients: Sequence[float] = ()) -> Lens:
     return model.lens(_fit_length(shown, values, model))
 
 
-def _fit_length(shown: str, values: list[float], model: _Model) -> list[float]:
+def _fit_length(label: str, values: list[float], model: _Model) -> list[float]:
     """Return the coefficients in a number that the model has."""
     if not any(values) and model.zeros_by_default:
         return [0.0] * model.counts[0]
@@ -149,6 +149,6 @@ def _fit_length(shown: str, values: list[float], model: _Model) -> list[float]:
             return values[:count]
     counts = " or ".join(map(str, model.counts))
     raise CameraError(
-        f"the distortion model {shown} has {counts} coefficients ({model.coefficients}), not {len(values)}",
+        f"the distortion model {label} has {counts} coefficients ({model.coefficients}), not {len(values)}",
         hint="Copy all coefficients of the calibration, and the name of its model.",
     )

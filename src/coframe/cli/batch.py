@@ -204,22 +204,23 @@ def _run(
         return query_recordings(bags, query, output, on=on, workers=workers, progress=lambda _: show(next(done)))
 
 
-def _print_problems(one: QueryResult, what: str) -> None:
-    if one.error:
-        warn(one.error if one.bag in one.error else f"{one.bag}: {one.error}")
-    if one.missing:
-        warn(f"{one.bag}: no {what} at {count(one.missing, 'time')}; omitted")
-    for problem in one.problems:
-        warn(f"{one.bag}: {problem}")
+def _print_problems(result: QueryResult, what: str) -> None:
+    if result.error:
+        warn(result.error if result.bag in result.error else f"{result.bag}: {result.error}")
+    if result.missing:
+        warn(f"{result.bag}: no {what} at {count(result.missing, 'time')}; omitted")
+    for problem in result.problems:
+        warn(f"{result.bag}: {problem}")
 
 
-def _print_skipped_poses(one: QueryResult, poses: Container[str]) -> None:
+def _print_skipped_poses(result: QueryResult, poses: Container[str]) -> None:
     rows: Counter[str] = Counter()
-    for each in one.omitted:
+    for each in result.omitted:
         if each.column in poses:
             rows[each.column] += each.rows
     for name, number in rows.items():
         warn(
-            f"{one.bag}: no pose of {name} at {count(number, 'time')}: poses are interpolated between transforms up to "
+            f"{result.bag}: no pose of {name} at {count(number, 'time')}: poses are interpolated between transforms "
+            "up to "
             f"{duration(MAX_GAP)} apart (--max-gap changes this limit)"
         )

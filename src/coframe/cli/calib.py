@@ -173,40 +173,40 @@ def history(
             raise Exit(_EXIT_DIFFERENT)
 
 
-def _as_text(found: Difference, limits: Tolerance) -> str:
+def _as_text(difference: Difference, limits: Tolerance) -> str:
     lines = []
-    for mount in found.mounts:
+    for mount in difference.mounts:
         mark = "differs" if mount.exceeds(limits) else "equal"
         size = f"{mount.meters * 1e3:.4g} mm, {degrees(mount.radians):.3g} deg"
         lines.append(f"{mark:8}{mount.parent} -> {mount.child}: {size}")
         if mount.cause and mount.exceeds(limits):
             lines += [f"        {mount.cause}", f"        {mount.fix}"]
-    for camera in found.cameras:
+    for camera in difference.cameras:
         size = camera.reason or f"{camera.pixels:.3g} px"
         lines.append(f"{'differs' if camera.exceeds(limits) else 'equal':8}camera {camera.camera}: {size}")
-    for offset in found.offsets:
+    for offset in difference.offsets:
         cause = f" ({offset.cause})" if offset.cause else ""
         mark = "differs" if offset.exceeds(limits) else "equal"
         lines.append(f"{mark:8}time offset of {offset.frame}: {offset.seconds * 1e3:+.3g} ms{cause}")
-    for side, names in (("A", found.only_first), ("B", found.only_second)):
+    for side, names in (("A", difference.only_first), ("B", difference.only_second)):
         if names:
             lines.append(f"only in {side}: {', '.join(names)}")
     return "\n".join(printable(line) for line in lines)
 
 
-def _as_dict(found: Difference, limits: Tolerance) -> dict[str, object]:
+def _as_dict(difference: Difference, limits: Tolerance) -> dict[str, object]:
     return {
-        "differs": found.exceeds(limits),
-        "mounts": [{**mount._asdict(), "differs": mount.exceeds(limits)} for mount in found.mounts],
+        "differs": difference.exceeds(limits),
+        "mounts": [{**mount._asdict(), "differs": mount.exceeds(limits)} for mount in difference.mounts],
         "cameras": [
             {
                 **camera._asdict(),
                 "pixels": None if camera.reason else camera.pixels,
                 "differs": camera.exceeds(limits),
             }
-            for camera in found.cameras
+            for camera in difference.cameras
         ],
-        "time_offsets": [{**offset._asdict(), "differs": offset.exceeds(limits)} for offset in found.offsets],
-        "only_in_a": found.only_first,
-        "only_in_b": found.only_second,
+        "time_offsets": [{**offset._asdict(), "differs": offset.exceeds(limits)} for offset in difference.offsets],
+        "only_in_a": difference.only_first,
+        "only_in_b": difference.only_second,
     }

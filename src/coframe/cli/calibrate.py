@@ -147,12 +147,12 @@ def hand_eye(
         _report(found, names, bag, output, as_json=as_json)
 
 
-def _swapped(found: RigidCalibration) -> RigidCalibration:
+def _swapped(calibration: RigidCalibration) -> RigidCalibration:
     """Return a result about the camera next to the robot, whose uncertainty is about that of the tag."""
     from dataclasses import replace  # noqa: PLC0415 - used by one option
 
-    camera = found.reference.replace(covariance=found.transform.covariance)
-    return replace(found, transform=camera, reference=found.transform)
+    camera = calibration.reference.replace(covariance=calibration.transform.covariance)
+    return replace(calibration, transform=camera, reference=calibration.transform)
 
 
 def _trajectory(recording: Recording, text: str, max_gap: int) -> tuple[Transform, str]:
@@ -186,38 +186,40 @@ def _check_outputs(paths: tuple[Path, ...]) -> None:
 
 
 def _report(
-    found: RigidCalibration, names: tuple[str, str], bag: Readable, output: tuple[Path, ...], *, as_json: bool
+    calibration: RigidCalibration, names: tuple[str, str], bag: Readable, output: tuple[Path, ...], *, as_json: bool
 ) -> None:
-    data = _as_dict(found, names)
+    data = _as_dict(calibration, names)
     if as_json:
         print(json.dumps(data))
     else:
-        print(printable(_as_text(found, names)))
-    for line in _warnings(found):
+        print(printable(_as_text(calibration, names)))
+    for line in _warnings(calibration):
         warn(line)
     for path in output:
         try:
             if path.suffix.lower() == ".mcap":
-                _write_recording(found, names, bag, path)
+                _write_recording(calibration, names, bag, path)
             else:
-                _write(found, names, path, data)
+                _write(calibration, names, path, data)
         except OSError as error:
             fail_to_write(path, error)
 
 
-def _as_text(found: RigidCalibration, names: tuple[str, str]) -> str:
-    deviations = found.deviations
+def _as_text(calibration: RigidCalibration, names: tuple[str, str]) -> str:
+    deviations = calibration.deviations
     place = ", ".join(f"{1e3 * value:.3g}" for value in deviations[:3])
     turn = ", ".join(f"{degrees(value):.2g}" for value in deviations[3:])
-    r, t = (float(np.sqrt(np.mean(part**2))) for part in (found.rotation_residuals, found.translation_residuals))
+    r, t = (
+        float(np.sqrt(np.mean(part**2))) for part in (calibration.rotation_residuals, calibration.translation_residuals)
+    )
     lines = [
-        f"{names[0]} -> {names[1]}: {_numbers(found.transform)}",
+        f"{names[0]} -> {names[1]}: {_numbers(calibration.transform)}",
         f"standard deviations: {place} mm; {turn} deg",
-        f"time offset: {found.time_offset * 1e3:+.3f} ms +- {found.time_deviation * 1e3:.2g} ms"
-        if isfinite(found.time_deviation)
-        else f"time offset: {found.time_offset * 1e3:+.3f} ms (given)",
-        f"residuals of {len(found.stamps)} motions: {1e3 * t:.3g} mm, {degrees(r):.3g} deg (rms)",
-        static_command(*names, found.transform.values),
+        f"time offset: {calibration.time_offset * 1e3:+.3f} ms +- {calibration.time_deviation * 1e3:.2g} ms"
+        if isfinite(calibration.time_deviation)
+        else f"time offset: {calibration.time_offset * 1e3:+.3f} ms (given)",
+        f"residuals of {len(calibration.stamps)} motions: {1e3 * t:.3g} mm, {degrees(r):.3g} deg (rms)",
+        static_command(*names, calibration.transform.values),
     ]
     return "\n".join(lines)
 
@@ -228,52 +230,66 @@ def _numbers(pose: Transform) -> str:
     return f"x, y, z {xyz} m; roll, pitch, yaw {rpy} deg"
 
 
-def _warnings(found: RigidCalibration) -> list[str]:
+def _warnings(calibration: RigidCalibration) -> list[str]:
     lines = []
-    for axis in found.hidden:
+    for axis in calibration.hidden:
         direction = ", ".join(f"{value + 0.0:.2f}" for value in axis)
         lines.append(
             f"not observable: the position along ({direction}) of the body, because no rotation moves it; the value is "
             "that of --prior. Record turns about other axes, as on a ramp."
         )
-    if not found.is_rotation_observable:
+    if not calibration.is_rotation_observable:
         lines.append("not observable: the rotation. Record turns about several axes, or turns while driving.")
     return lines
 
 
-def _as_dict(found: RigidCalibration, names: tuple[str, str]) -> dict[str, Any]:
+def _as_dict(calibration: RigidCalibration, names: tuple[str, str]) -> dict[str, Any]:
     return {
         "parent": names[0],
         "child": names[1],
-        "transform": list(found.transform.values),
-        "covariance": np.asarray(found.transform.covariance).tolist(),
-        "time_offset": found.time_offset,
-        "time_deviation": found.time_deviation if isfinite(found.time_deviation) else None,
-        "hidden_directions": found.hidden.tolist(),
-        "rotation_observable": found.is_rotation_observable,
-        "rotation_rms": float(np.sqrt(np.mean(found.rotation_residuals**2))),
-        "translation_rms": float(np.sqrt(np.mean(found.translation_residuals**2))),
-        "motions": len(found.stamps),
+        "transform": list(calibration.transform.values),
+        "covariance": np.asarray(calibration.transform.covariance).tolist(),
+        "time_offset": calibration.time_offset,
+        "time_deviation": calibration.time_deviation if isfinite(calibration.time_deviation) else None,
+        "hidden_directions": calibration.hidden.tolist(),
+        "rotation_observable": calibration.is_rotation_observable,
+        "rotation_rms": float(np.sqrt(np.mean(calibration.rotation_residuals**2))),
+        "translation_rms": float(np.sqrt(np.mean(calibration.translation_residuals**2))),
+        "motions": len(calibration.stamps),
     }
 
 
-def _write(found: RigidCalibration, names: tuple[str, str], path: Path, data: dict[str, Any]) -> None:
+def _write(calibration: RigidCalibration, names: tuple[str, str], path: Path, data: dict[str, Any]) -> None:
     kind = path.suffix.lower().removeprefix(".")
     if kind in FIGURE_FORMATS:
-        order = np.argsort(found.stamps)
+        order = np.argsort(calibration.stamps)
         series = [
-            Series("translation", found.stamps[order], 1e3 * found.translation_residuals[order], "residual [mm]"),
-            Series("rotation", found.stamps[order], np.degrees(found.rotation_residuals[order]), "residual [deg]"),
+            Series(
+                "translation",
+                calibration.stamps[order],
+                1e3 * calibration.translation_residuals[order],
+                "residual [mm]",
+            ),
+            Series(
+                "rotation",
+                calibration.stamps[order],
+                np.degrees(calibration.rotation_residuals[order]),
+                "residual [deg]",
+            ),
         ]
         save_figure(Figure(printable(f"{names[0]} -> {names[1]}"), series, has_time=True), path)
     elif kind == "json":
         write_complete(path, (json.dumps(data, indent=2) + "\n").encode())
     else:
-        mount = found.transform.replace(target=names[0], source=names[1], covariance=None)
-        write(Rig((mount,), time_offsets={names[1]: found.time_offset}), path, "autoware" if kind == "yaml" else None)
+        mount = calibration.transform.replace(target=names[0], source=names[1], covariance=None)
+        write(
+            Rig((mount,), time_offsets={names[1]: calibration.time_offset}),
+            path,
+            "autoware" if kind == "yaml" else None,
+        )
 
 
-def _write_recording(found: RigidCalibration, names: tuple[str, str], bag: Readable, path: Path) -> None:
+def _write_recording(calibration: RigidCalibration, names: tuple[str, str], bag: Readable, path: Path) -> None:
     """Write a copy of the recording with the mount, as `coframe bag edit --set-static` does."""
-    words = [shlex.quote(name) for name in names] + [repr(float(value)) for value in found.transform.values]
+    words = [shlex.quote(name) for name in names] + [repr(float(value)) for value in calibration.transform.values]
     edit(bag, path, [("set-static", " ".join(words))])

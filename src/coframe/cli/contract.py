@@ -171,7 +171,7 @@ def check(
 
 
 def _verdicts(
-    required: Contract,
+    contract: Contract,
     bags: tuple[Readable, ...],
     choice: TransformChoice,
     duration: PositiveDuration,
@@ -179,14 +179,14 @@ def _verdicts(
 ) -> Iterator[Verdict]:
     for bag in bags:
         if isinstance(bag, Path) and str(bag) == _LIVE and not bag.exists():
-            yield _check_live(required, choice, duration, domain)
+            yield _check_live(contract, choice, duration, domain)
         else:
             with reading_progress() as progress:
-                verdict = check_recording(required, bag, choice, progress=progress)
+                verdict = check_recording(contract, bag, choice, progress=progress)
             yield verdict
 
 
-def _check_live(required: Contract, choice: TransformChoice, duration: PositiveDuration, domain: int | None) -> Verdict:
+def _check_live(contract: Contract, choice: TransformChoice, duration: PositiveDuration, domain: int | None) -> Verdict:
     from coframe.connection.listener_config import ListenerConfig  # noqa: PLC0415 - recordings need no middleware
 
     if Console(stderr=True).is_terminal:
@@ -200,10 +200,10 @@ def _check_live(required: Contract, choice: TransformChoice, duration: PositiveD
             prefix=choice.prefix,
             keep=choice.keep,
         )
-        measurement = measure_live(config, duration.seconds, [each.name for each in required.topics])
+        measurement = measure_live(config, duration.seconds, [each.name for each in contract.topics])
     except WireError as error:
         return Verdict.of_error(_LIVE, error)
-    return Verdict(_LIVE, tuple(check_contract(required, measurement)))
+    return Verdict(_LIVE, tuple(check_contract(contract, measurement)))
 
 
 def _write(path: Path | None, content: bytes) -> None:

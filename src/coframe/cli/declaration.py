@@ -102,7 +102,7 @@ class CommandGroup(click.Group):
         if not (name.startswith("-") or ctx.resilient_parsing or self.get_command(ctx, name)):
             from coframe._output.formatting import did_you_mean  # noqa: PLC0415 - the help does not need NumPy
 
-            ctx.fail(f"No such command {name!r}. {did_you_mean(name, self.list_commands(ctx), most=2)}".rstrip())
+            ctx.fail(f"No such command {name!r}. {did_you_mean(name, self.list_commands(ctx), limit=2)}".rstrip())
         return super().resolve_command(ctx, args)
 
     def format_help(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:

@@ -139,7 +139,7 @@ def demo(
                     ros.buffer,
                     name("base_link"),
                     liveness,
-                    most=max(1, console.height - RESERVED_LINES),
+                    limit=max(1, console.height - RESERVED_LINES),
                     wide=console.width >= 100,
                 ),
                 Text(str(clouds)),

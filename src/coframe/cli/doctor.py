@@ -238,7 +238,7 @@ def _examine_graph(
     domain: int | None,
     cache: PositiveDuration,
     duration: PositiveDuration,
-    ignored: list[str],
+    ignored_codes: list[str],
     *,
     watch: bool,
     as_json: bool,
@@ -257,12 +257,12 @@ def _examine_graph(
     )
     with LiveObserver(config, window=duration if watch else None) as observer:
         if watch:
-            _watch(observer, ignored, as_json)
+            _watch(observer, ignored_codes, as_json)
         if Console(stderr=True).is_terminal:
             click.echo(f"observing for {duration} ...", err=True)
         observer.listen(duration.seconds)
         observer.listen_for_statics()
-        return diagnose(observer.observe(), ignore=ignored)
+        return diagnose(observer.observe(), ignore=ignored_codes)
 
 
 def _check_clocks(output: Path | None, *, clocks: bool, others: dict[str, object]) -> None:
@@ -374,16 +374,18 @@ def _print(reports: dict[str, Report]) -> None:
             console.print(line)
 
 
-def _reports(bag: Readable, choice: TransformChoice, ignored: list[str], cache: PositiveDuration) -> dict[str, Report]:
+def _reports(
+    bag: Readable, choice: TransformChoice, ignored_codes: list[str], cache: PositiveDuration
+) -> dict[str, Report]:
     """Return the report about each namespace of a recording."""
     with reading_progress() as progress:
         observations = observe_chosen(bag, choice, cache=cache, progress=progress)
-    return {name: diagnose(one, ignore=ignored) for name, one in observations.items()}
+    return {name: diagnose(one, ignore=ignored_codes) for name, one in observations.items()}
 
 
-def _examine(path: Path, ignored: list[str], cache: PositiveDuration) -> dict[str, Report]:
+def _examine(path: Path, ignored_codes: list[str], cache: PositiveDuration) -> dict[str, Report]:
     """Print the reports about a repaired recording, and return them."""
-    reports = _reports(path, ALL_TRANSFORMS, ignored, cache)
+    reports = _reports(path, ALL_TRANSFORMS, ignored_codes, cache)
     _print(reports)
     return reports
 

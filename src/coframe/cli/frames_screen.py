@@ -40,19 +40,19 @@ _PERIOD = 1.0  # seconds
 _MAX_TABLE_ROWS = 2000  # rows per table
 
 
-def tree(forest: Forest, changed: dict[str, str] | None = None, most: int | None = None) -> Group:
+def tree(forest: Forest, changes: dict[str, str] | None = None, limit: int | None = None) -> Group:
     """Return a table of the trees, followed by a summary.
 
     Args:
         forest: The trees to show.
-        changed: The kind of change of each frame to highlight.
-        most: Maximum number of rows, or None for no limit.
+        changes: The kind of change of each frame to highlight.
+        limit: Maximum number of rows, or None for no limit.
     """
     every = list(rows(forest))
-    cut = every if most is None or len(every) <= most else every[: most - 1]
+    cut = every if limit is None or len(every) <= limit else every[: limit - 1]
     left = len(every) - len(cut)
     more = [Text(f"... and {count(left, 'more row')}; `coframe frames` prints all", style="dim")] if left else []
-    return Group(_table(cut, _columns(every), changed or {}), *more, _summary(forest))
+    return Group(_table(cut, _columns(every), changes or {}), *more, _summary(forest))
 
 
 def tree_tables(forest: Forest) -> Iterator[Table | Text]:
@@ -69,12 +69,12 @@ def tree_tables(forest: Forest) -> Iterator[Table | Text]:
     yield _summary(forest)
 
 
-def _columns(every: list[Row]) -> dict[int, int]:
+def _columns(rows: list[Row]) -> dict[int, int]:
     """Return the columns that are used, and the width of each. The first one is the frame."""
     cells = {
         number: [
             COLUMNS[number],
-            *((row.branches + row.name if number == 0 else row.cells[number - 1]) for row in every),
+            *((row.branches + row.name if number == 0 else row.cells[number - 1]) for row in rows),
         ]
         for number in range(len(COLUMNS))
     }
@@ -95,15 +95,15 @@ def _fitting(columns: dict[int, int], width: int) -> dict[int, int]:
     return kept
 
 
-def _table(shown: list[Row], columns: dict[int, int], changed: dict[str, str]) -> Table:
+def _table(rows: list[Row], columns: dict[int, int], changes: dict[str, str]) -> Table:
     table = Table(box=None, pad_edge=False, padding=(0, 1, 0, 0), header_style="dim")
     for number in columns:
         # In a narrow terminal, publishers are truncated first: rich shrinks columns that may wrap, although no cell
         # does.
         wraps = number == _PUBLISHER_COLUMN
         table.add_column(COLUMNS[number], justify="left" if number <= _PUBLISHER_COLUMN else "right", no_wrap=not wraps)
-    for row in shown:
-        kind = changed.get(row.frame)
+    for row in rows:
+        kind = changes.get(row.frame)
         style = f"reverse {_CHANGE_STYLES[kind]}" if kind else _KIND_STYLES[row.kind]
         name = Text.assemble((row.branches, "dim"), (row.name, style), no_wrap=True, overflow="ellipsis")
         rest = "red" if row.kind == "stale" else ""

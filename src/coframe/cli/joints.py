@@ -207,10 +207,10 @@ def _running_node(
             node.destroy_node()
 
 
-def _show_in_terminal(running: RunningNode) -> None:
+def _show_in_terminal(running_node: RunningNode) -> None:
     console = Console()
     sliders = Sliders()
-    node = running.node
+    node = running_node.node
 
     def screen() -> Group:
         with node.lock:
@@ -221,7 +221,7 @@ def _show_in_terminal(running: RunningNode) -> None:
     with keys() as pressed, Live(get_renderable=screen, console=console, auto_refresh=False) as live:
         going = True
         while going:
-            running.check()
+            running_node.check()
             key = pressed.read(REFRESH)
             if key is not None:
                 with node.lock:
@@ -231,8 +231,8 @@ def _show_in_terminal(running: RunningNode) -> None:
 
 
 def _show_in_viewer(
-    running: RunningNode, robot: Robot | None, ros: Connection, port: int | None, *, browser: bool
+    running_node: RunningNode, robot: Robot | None, ros: Connection, port: int | None, *, browser: bool
 ) -> None:
     with show_in_browser(ros, robot=robot, port=port, joint_states=SLIDERS) as viewer:
         announce(viewer, browser=browser)
-        running.wait()
+        running_node.wait()

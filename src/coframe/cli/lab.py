@@ -433,9 +433,9 @@ class _MisuseError(CourseError):
 
 
 @contextlib.contextmanager
-def _in_language(code: str | None, recorded: str = "") -> Iterator[Language]:
+def _in_language(code: str | None, recorded_code: str = "") -> Iterator[Language]:
     """Choose the language of a command, in which its errors are raised, too."""
-    language = choose_language(code, recorded)
+    language = choose_language(code, recorded_code)
     try:
         yield language
     except _MisuseError as error:

@@ -97,16 +97,16 @@ def grade_class(options: ClassOptions) -> None:
 class _Grading:
     """The grading of a class: its reports so far, and the files that are made from them."""
 
-    def __init__(self, options: ClassOptions, roster: Roster | None, found: dict[str, Submission]) -> None:
+    def __init__(self, options: ClassOptions, roster: Roster | None, submissions: dict[str, Submission]) -> None:
         self.options = options
         self.roster = roster
-        self.submissions = found
+        self.submissions = submissions
         self.reports: dict[str, dict[str, Any]] = {}
-        self.students = {name: None if roster is None else roster.find(name) for name in found}
-        self.variants = {name: self._variant(name) for name in found}
+        self.students = {name: None if roster is None else roster.find(name) for name in submissions}
+        self.variants = {name: self._variant(name) for name in submissions}
         self.journal = None if options.output is None else Journal(options.output.with_suffix(".jsonl"))
         outputs = (options.output, options.moodle, options.canvas, options.similarity, options.feedback)
-        for each in found.values():
+        for each in submissions.values():
             check_outputs(outputs, each.folder)
 
     def _variant(self, name: str) -> int | None:

@@ -107,7 +107,7 @@ def _launch_file(package_or_file: str, words: list[str]) -> Path:
         return file.resolve()
     if os.sep in package_or_file or package_or_file.endswith(_SUFFIXES):
         siblings = [each.name for each in file.parent.iterdir()] if file.parent.is_dir() else []
-        fail(f"No launch file {package_or_file}.", did_you_mean(file.name, siblings, most=2))
+        fail(f"No launch file {package_or_file}.", did_you_mean(file.name, siblings, limit=2))
     try:
         share = find_package(package_or_file).share
     except PackageError as error:
@@ -121,7 +121,7 @@ def _launch_file(package_or_file: str, words: list[str]) -> Path:
     if not path.is_file():
         fail(
             f"No launch file {name!r} in the package {package_or_file!r}.",
-            f"{did_you_mean(name, there, most=2)} Available launch files: {', '.join(there) or 'none'}.".lstrip(),
+            f"{did_you_mean(name, there, limit=2)} Available launch files: {', '.join(there) or 'none'}.".lstrip(),
         )
     return path.resolve()
 

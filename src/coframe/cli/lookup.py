@@ -176,9 +176,9 @@ def _gap_line(gap: Validity) -> str:
     return f"- Interpolated over: {duration(int(gap.gaps[0]))} between two samples of {display_name(gap.edges[0])}"
 
 
-def _look_up(buffer: Buffer, target: str, source: str, when: int, max_gap: int | None) -> Transform:
+def _look_up(buffer: Buffer, target: str, source: str, lookup_time: int, max_gap: int | None) -> Transform:
     """Return the transform, and print a warning if it is interpolated over an unusually long gap."""
-    found = buffer.lookup(target, source, when, max_gap=max_gap)
+    found = buffer.lookup(target, source, lookup_time, max_gap=max_gap)
     if max_gap is None:
         text = long_gap_text(buffer, target, source, np.array([found.stamp or 0], dtype=np.int64))
         if text:

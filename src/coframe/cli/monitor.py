@@ -126,12 +126,12 @@ def _watch(observer: LiveObserver, pair: Pair) -> NoReturn:
             observer.listen(1.0)
 
 
-def _tables(observation: Observation, pair: Pair, most: int | None = None) -> Group:
-    """Return the tables of the edges, with at most `most` rows, and of the publishers."""
+def _tables(observation: Observation, pair: Pair, limit: int | None = None) -> Group:
+    """Return the tables of the edges, with at most `limit` rows, and of the publishers."""
     if not observation.edges:
         return Group(Text("no transforms received yet: is a broadcaster running in the same ROS domain?"))
     edges = _table("edge", "publisher", "Hz", "jitter ms", "delay ms", "p99 ms", "age ms", "count")
-    rows = edge_statistics(observation, most)
+    rows = edge_statistics(observation, limit)
     for row in rows:
         figures = (row.jitter, row.delay, row.delay_p99, row.age)
         rate = "static" if row.static else "stale" if row.stale else _format_hertz(row.rate)

@@ -47,10 +47,10 @@ def task_progress() -> Iterator[Callable[[str, int, int], object]]:
     with _bar(TaskProgressColumn()) as bar:
         tasks: dict[str, TaskID] = {}
 
-        def show(description: str, done: int, total: int) -> None:
+        def show(description: str, completed: int, total: int) -> None:
             if description not in tasks:
                 tasks[description] = bar.add_task(description)
-            bar.update(tasks[description], completed=done, total=total)
+            bar.update(tasks[description], completed=completed, total=total)
 
         yield show
 

@@ -147,19 +147,19 @@ def _prefixes(sources: Iterable[str]) -> dict[str, str]:
     return {topic: checked_prefix(prefix) for topic, _, prefix in pairs}
 
 
-def _show(running: Relay) -> None:
+def _show(active_relay: Relay) -> None:
     """Show the table until Ctrl-C; without a terminal, print it once as soon as there are edges."""
     console = Console()
     rates = _Rates()
     if console.is_terminal:
         with Live(console=console, refresh_per_second=1 / REFRESH) as live:
             while True:
-                live.update(_table(running, rates, max(console.height - 3, 1)))
+                live.update(_table(active_relay, rates, max(console.height - 3, 1)))
                 time.sleep(REFRESH)
-    while not running.edges():
+    while not active_relay.edges():
         time.sleep(REFRESH)
     time.sleep(REFRESH)
-    report_console().print(_table(running, rates))
+    report_console().print(_table(active_relay, rates))
 
 
 class _Rates:
@@ -181,16 +181,16 @@ class _Rates:
         return rates
 
 
-def _table(running: Relay, rates: _Rates, most: int | None = None) -> Group:
-    """Return a table of the edges with at most `most` rows."""
+def _table(active_relay: Relay, rates: _Rates, limit: int | None = None) -> Group:
+    """Return a table of the edges with at most `limit` rows."""
     table = Table(box=None, pad_edge=False, header_style="dim")
     for column in ("edge", "robot", "from", "node", "to", "Hz", "age s", ""):
         table.add_column(column, justify="right" if column in {"Hz", "age s"} else "left")
-    robots = running.robots
+    robots = active_relay.robots
     states = {robot.name: robot.state for robot in robots}
-    edges = sorted(running.edges(), key=lambda edge: (edge.target, edge.robot, edge.parent, edge.child))
+    edges = sorted(active_relay.edges(), key=lambda edge: (edge.target, edge.robot, edge.parent, edge.child))
     each = rates.update(edges)
-    for edge in edges[:most]:
+    for edge in edges[:limit]:
         note = f"also published by {edge.conflicting_robot}, which is ignored" if edge.conflicting_robot else ""
         if states[edge.robot] in {"gone", "stale"}:
             has_left = states[edge.robot] == "gone"

@@ -70,7 +70,7 @@ def show_robots(
     with (
         run_until_interrupted(),
         Connection("coframe_demo", config) as ros,
-        _optional_relay(names, config, warnings.append, needed=own_topics) as relay,
+        _optional_relay(names, config, warnings.append, is_needed=own_topics) as relay,
         Launcher(commands, domain=config.domain) as nodes,
         optional_viewer(ros, port, browser=browser),
     ):
@@ -89,9 +89,9 @@ def show_robots(
 
 
 def _optional_relay(
-    names: list[str], config: ListenerConfig, warn: Callable[[str], None], *, needed: bool
+    names: list[str], config: ListenerConfig, warn: Callable[[str], None], *, is_needed: bool
 ) -> contextlib.AbstractContextManager[Relay | None]:
-    if not needed:
+    if not is_needed:
         return contextlib.nullcontext()
     try:
         return start_relay(

@@ -25,14 +25,14 @@ if TYPE_CHECKING:
 __all__ = ["tree_table"]
 
 
-def tree_table(buffer: Buffer, reference: str, liveness: LivenessTracker, *, most: int, wide: bool = True) -> Group:
+def tree_table(buffer: Buffer, reference: str, liveness: LivenessTracker, *, limit: int, wide: bool = True) -> Group:
     """Return a table with each frame below its parent, and poses in meters and degrees.
 
     Args:
         buffer: The buffer that contains the frames.
         reference: The frame in which poses are expressed.
         liveness: Determines which frames are stale; updated by the table.
-        most: Maximum number of rows.
+        limit: Maximum number of rows.
         wide: Whether the terminal has at least 100 columns, enough to show millimeters.
     """
     title = Text(f"transform tree, poses relative to {display_name(reference)} (meters, degrees)")
@@ -50,7 +50,7 @@ def tree_table(buffer: Buffer, reference: str, liveness: LivenessTracker, *, mos
     liveness.update(frames)
     rows = dict(zip((frame.name for frame in frames), zip(frames, liveness.stale().tolist(), strict=True), strict=True))
     trees = FrameTrees.from_parents({frame.name: frame.parent for frame in frames}, sorted(rows))
-    for number in trees.order[:most]:
+    for number in trees.order[:limit]:
         frame, stale = rows[trees.names[number]]
         age = (now - frame.newest) / SECOND
         table.add_row(
@@ -60,7 +60,7 @@ def tree_table(buffer: Buffer, reference: str, liveness: LivenessTracker, *, mos
             Text(_age(frame, age), style="red" if stale else ""),
             *_pose(buffer, reference, frame.name, decimals),
         )
-    left = len(trees.order) - most
+    left = len(trees.order) - limit
     more = [Text(f"... and {count(left, 'more frame')}", style="dim")] if left > 0 else []
     return Group(table, *more)
 

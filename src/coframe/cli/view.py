@@ -236,12 +236,12 @@ class _ReadingProgress:
             self._is_announced = True
             announce(self._viewer, browser=self._browser)
 
-    def update(self, done: int, total: int, name: str) -> None:
+    def update(self, completed: int, total: int, name: str) -> None:
         self.announce()
         now = time.monotonic()
         if now >= self._next_update:
             self._next_update = now + self._PERIOD
-            self._viewer.set_title(f"{name}: {100 * done // max(total, 1)} % read")
+            self._viewer.set_title(f"{name}: {100 * completed // max(total, 1)} % read")
 
 
 def _read(bag: Readable, choice: TransformChoice, progress: _ReadingProgress) -> RecordedSource:

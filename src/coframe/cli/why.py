@@ -181,26 +181,26 @@ def _answer_live(config: ListenerConfig, target: str, source: str, at: str | Non
         return _answer(found, [seen], [*_await_transforms(found, ros), *_other_topics(found, ros)])
 
 
-def _answer(found: Explanation, seen: Sequence[Observation], notes: Iterable[str]) -> _Answer:
+def _answer(explanation: Explanation, observations: Sequence[Observation], notes: Iterable[str]) -> _Answer:
     """Return the explanation with the findings about its edges. Edges that still arrive are not stale."""
-    alive = {edge.key for one in seen if one.live for edge in one.dynamic if not one.is_stale(edge)}
-    edges = (edge._replace(stale=False) if (edge.parent, edge.child) in alive else edge for edge in found.edges)
-    found = replace(found, edges=tuple(edges))
-    reports = _relevant_reports(found, seen)
-    return _Answer(_add_clock_advice(found, reports), reports, list(notes))
+    alive = {edge.key for one in observations if one.live for edge in one.dynamic if not one.is_stale(edge)}
+    edges = (edge._replace(stale=False) if (edge.parent, edge.child) in alive else edge for edge in explanation.edges)
+    explanation = replace(explanation, edges=tuple(edges))
+    reports = _relevant_reports(explanation, observations)
+    return _Answer(_add_clock_advice(explanation, reports), reports, list(notes))
 
 
-def _add_clock_advice(found: Explanation, reports: Iterable[Report]) -> Explanation:
+def _add_clock_advice(explanation: Explanation, reports: Iterable[Report]) -> Explanation:
     """Return the explanation with the advice of the finding about the clock of its edges, if that is the cause."""
     of_clocks = [one for report in reports for one in report.findings if one.code in _CLOCK_CODES]
-    if found.possible or found.roots is not None or found.unknown or not of_clocks:
-        return found
-    if found.span is not None and not any(edge.state == "too_new" for edge in found.edges):
-        return found
+    if explanation.possible or explanation.roots is not None or explanation.unknown or not of_clocks:
+        return explanation
+    if explanation.span is not None and not any(edge.state == "too_new" for edge in explanation.edges):
+        return explanation
     code = of_clocks[0].code
     names = {" -> ".join(edge) for one in of_clocks for edge in (one.edge, *one.edges) if edge is not None}
-    subject = join_names(edge.name for edge in found.edges if edge.name in names)
-    return replace(found, hint=f"The stamps of {subject} are wrong: see {code} below. See doctor code {code}.")
+    subject = join_names(edge.name for edge in explanation.edges if edge.name in names)
+    return replace(explanation, hint=f"The stamps of {subject} are wrong: see {code} below. See doctor code {code}.")
 
 
 def _watch(config: ListenerConfig, target: str, source: str, at: str | None, window: int, *, as_json: bool) -> NoReturn:
@@ -232,18 +232,18 @@ def _lookup_time(at: str | None, clock: int | None, window: int) -> int | None:
         fail(f"--at: {error}", code=2)
 
 
-def _relevant_reports(found: Explanation, seen: Iterable[Observation]) -> list[Report]:
+def _relevant_reports(explanation: Explanation, observations: Iterable[Observation]) -> list[Report]:
     """Return the findings about the edges of the chain and, if the chain is incomplete, about its frames."""
-    edges = {(edge.parent, edge.child) for edge in found.edges}
-    frames = {found.target, found.source, *found.frames}
-    incomplete = found.roots is not None or bool(found.unknown)
+    edges = {(edge.parent, edge.child) for edge in explanation.edges}
+    frames = {explanation.target, explanation.source, *explanation.frames}
+    incomplete = explanation.roots is not None or bool(explanation.unknown)
 
     def concerns(finding: Finding) -> bool:
         if finding.edge is not None:
             return not edges.isdisjoint({finding.edge, *finding.edges})
         return incomplete and (not finding.frames or not frames.isdisjoint(finding.frames))
 
-    reports = map(diagnose, seen)
+    reports = map(diagnose, observations)
     return [
         report._replace(
             findings=[one.with_consequences(()) for one in report.every_finding() if concerns(one)], sensors=[]
@@ -252,21 +252,21 @@ def _relevant_reports(found: Explanation, seen: Iterable[Observation]) -> list[R
     ]
 
 
-def _other_namespaces(found: Explanation, recording: Recording) -> Iterator[str]:
-    for frame in found.unknown:
+def _other_namespaces(explanation: Explanation, recording: Recording) -> Iterator[str]:
+    for frame in explanation.unknown:
         for name, buffer in recording.buffers.items():
             if frame in buffer:
                 option = f"--namespace {shlex.quote(name or '/')}"
                 yield f"frame {frame!r} is published on {name}/tf: coframe why ... {option}"
 
 
-def _await_transforms(found: Explanation, ros: Connection) -> Iterator[str]:
-    if not found.possible and (nodes := ros.awaited_statics()):
+def _await_transforms(explanation: Explanation, ros: Connection) -> Iterator[str]:
+    if not explanation.possible and (nodes := ros.awaited_statics()):
         yield awaited_statics_text(nodes)
 
 
-def _other_topics(found: Explanation, ros: Connection) -> Iterator[str]:
-    if found.possible:
+def _other_topics(explanation: Explanation, ros: Connection) -> Iterator[str]:
+    if explanation.possible:
         return
     for topic, publishers in sorted(ros.participant.published().items()):
         types = {endpoint.ros_type for endpoint in publishers.values()}
@@ -297,9 +297,9 @@ def _styled_lines(answer: _Answer, console: Console) -> list[Text]:
     return [Text(line, style=style) for style, line in shown]
 
 
-def _replace_advice(found: Explanation, text: str) -> str:
+def _replace_advice(explanation: Explanation, text: str) -> str:
     """Replace the library's advice about a missing edge with the command that publishes it."""
-    return text if found.missing is None else text.replace(found.missing.hint, found.missing.fix)
+    return text if explanation.missing is None else text.replace(explanation.missing.hint, explanation.missing.fix)
 
 
 def _data(answer: _Answer) -> dict[str, Any]:
@@ -327,7 +327,7 @@ def _data(answer: _Answer) -> dict[str, Any]:
     }
 
 
-def _edge_data(found: Explanation, edge: ChainEdge) -> dict[str, Any]:
+def _edge_data(explanation: Explanation, edge: ChainEdge) -> dict[str, Any]:
     times = {"by", "oldest", "newest", "age", "gap", "period"}
     named = {f"{name}_ns" if name in times else name: value for name, value in edge._asdict().items()}
-    return {**named, "remark": edge_remark(found, edge)}
+    return {**named, "remark": edge_remark(explanation, edge)}

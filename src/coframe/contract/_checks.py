@@ -62,67 +62,71 @@ def check_contract(contract: Contract, measurement: Measurement) -> list[Result]
     ]
 
 
-def _transform(required: TransformRequirement, measurement: Measurement) -> Result:
-    subject = f"{required.namespace}: " if required.namespace else ""
-    subject += f"{required.parent} -> {required.child}"
-    return Result("transform", subject, tuple(_transform_problems(required, measurement)))
+def _transform(requirement: TransformRequirement, measurement: Measurement) -> Result:
+    subject = f"{requirement.namespace}: " if requirement.namespace else ""
+    subject += f"{requirement.parent} -> {requirement.child}"
+    return Result("transform", subject, tuple(_transform_problems(requirement, measurement)))
 
 
-def _transform_problems(required: TransformRequirement, measurement: Measurement) -> Iterator[str]:
-    observation = measurement.observations.get(required.namespace)
-    edge = None if observation is None else observation.last.get(required.child)
+def _transform_problems(requirement: TransformRequirement, measurement: Measurement) -> Iterator[str]:
+    observation = measurement.observations.get(requirement.namespace)
+    edge = None if observation is None else observation.last.get(requirement.child)
     if observation is None or edge is None:
         known = [] if observation is None else observation.frames
-        yield f"the frame {required.child!r} was not published. {did_you_mean(required.child, known)}".rstrip(". ")
+        yield f"the frame {requirement.child!r} was not published. {did_you_mean(requirement.child, known)}".rstrip(
+            ". "
+        )
         return
-    if edge.parent != required.parent:
-        yield f"the parent of {required.child!r} is {edge.parent!r}, not {required.parent!r}"
-    if required.static and not edge.static:
+    if edge.parent != requirement.parent:
+        yield f"the parent of {requirement.child!r} is {edge.parent!r}, not {requirement.parent!r}"
+    if requirement.static and not edge.static:
         yield "it was published as a dynamic transform, not as a static one"
-    if edge.static and not required.static and required.min_rate:
+    if edge.static and not requirement.static and requirement.min_rate:
         yield "it was published as a static transform, not as a dynamic one"
         return
-    yield from _pose_problems(required, edge)
-    yield from _pace_problems(required.min_rate, required.max_gap, pace_of(np.sort(edge.arrived), observation.end))
+    yield from _pose_problems(requirement, edge)
+    yield from _pace_problems(
+        requirement.min_rate, requirement.max_gap, pace_of(np.sort(edge.arrived), observation.end)
+    )
 
 
-def _pose_problems(required: TransformRequirement, edge: Edge) -> Iterator[str]:
+def _pose_problems(requirement: TransformRequirement, edge: Edge) -> Iterator[str]:
     poses = edge.poses(np.arange(edge.count))
-    meters, radians = required.tolerance
-    if required.xyz is not None:
-        off = float(np.linalg.norm(poses[:, :3] - np.array(required.xyz), axis=1).max())
+    meters, radians = requirement.tolerance
+    if requirement.xyz is not None:
+        off = float(np.linalg.norm(poses[:, :3] - np.array(requirement.xyz), axis=1).max())
         if not off <= meters:
             yield f"the position is off by {_length(off)}; the tolerance is {_length(meters)}"
-    if required.rpy is not None:
-        turns = multiply(inverse(from_rpy(np.array(required.rpy))), poses[:, 3:])
+    if requirement.rpy is not None:
+        turns = multiply(inverse(from_rpy(np.array(requirement.rpy))), poses[:, 3:])
         off = float(np.linalg.norm(to_rotvec(turns), axis=1).max())
         if not off <= radians:
             yield f"the rotation is off by {_angle(off)}; the tolerance is {_angle(radians)}"
 
 
-def _topic(required: TopicRequirement, measurement: Measurement) -> Result:
-    topic = measurement.topics.get(required.name)
-    unchecked = () if topic is None else tuple(_unchecked_requirements(required, topic, measurement))
-    return Result("topic", required.name, tuple(_topic_problems(required, measurement)), unchecked)
+def _topic(requirement: TopicRequirement, measurement: Measurement) -> Result:
+    topic = measurement.topics.get(requirement.name)
+    unchecked = () if topic is None else tuple(_unchecked_requirements(requirement, topic, measurement))
+    return Result("topic", requirement.name, tuple(_topic_problems(requirement, measurement)), unchecked)
 
 
-def _topic_problems(required: TopicRequirement, measurement: Measurement) -> Iterator[str]:
-    topic = measurement.topics.get(required.name)
+def _topic_problems(requirement: TopicRequirement, measurement: Measurement) -> Iterator[str]:
+    topic = measurement.topics.get(requirement.name)
     if topic is None:
-        yield f"there is no such topic. {did_you_mean(required.name, measurement.topics)}".rstrip(". ")
+        yield f"there is no such topic. {did_you_mean(requirement.name, measurement.topics)}".rstrip(". ")
         return
     if not topic.pace.messages:
         yield "it has no messages"
         return
-    if required.type and topic.type != required.type:
-        yield f"its type is {topic.type}, not {required.type}"
-    frames = _frames_of(required.name, measurement)
-    if required.frame and frames is not None and frames != [required.frame]:
-        yield f"its messages are in {join_names(frames) or 'no frame'}, not in {required.frame}"
-    yield from _pace_problems(required.min_rate, required.max_gap, topic.pace)
-    if required.reliable and topic.reliable is False:
+    if requirement.type and topic.type != requirement.type:
+        yield f"its type is {topic.type}, not {requirement.type}"
+    frames = _frames_of(requirement.name, measurement)
+    if requirement.frame and frames is not None and frames != [requirement.frame]:
+        yield f"its messages are in {join_names(frames) or 'no frame'}, not in {requirement.frame}"
+    yield from _pace_problems(requirement.min_rate, requirement.max_gap, topic.pace)
+    if requirement.reliable and topic.reliable is False:
         yield "a publisher is best effort, not reliable"
-    if required.transient_local and topic.transient_local is False:
+    if requirement.transient_local and topic.transient_local is False:
         yield "a publisher is volatile, not transient local: late subscriptions receive nothing"
 
 
@@ -136,22 +140,22 @@ def _frames_of(topic: str, measurement: Measurement) -> list[str] | None:
 
 
 def _unchecked_requirements(
-    required: TopicRequirement, topic: MeasuredTopic, measurement: Measurement
+    requirement: TopicRequirement, topic: MeasuredTopic, measurement: Measurement
 ) -> Iterator[str]:
     """Yield what is required of a topic but unknown."""
     unknown_qos = [
         name
         for name, is_required, offered in (
-            ("reliable", required.reliable, topic.reliable),
-            ("transient_local", required.transient_local, topic.transient_local),
+            ("reliable", requirement.reliable, topic.reliable),
+            ("transient_local", requirement.transient_local, topic.transient_local),
         )
         if is_required and offered is None
     ]
     if unknown_qos:
         yield f"{' and '.join(unknown_qos)}: the QoS of its publishers is unknown"
-    if required.max_gap is not None and topic.pace.messages and topic.pace.max_gap is None:
+    if requirement.max_gap is not None and topic.pace.messages and topic.pace.max_gap is None:
         yield "max_gap: the times of its messages are unknown"
-    if required.frame and topic.pace.messages and _frames_of(required.name, measurement) is None:
+    if requirement.frame and topic.pace.messages and _frames_of(requirement.name, measurement) is None:
         yield "frame: the frames of its messages are unknown"
 
 
@@ -163,40 +167,41 @@ def _pace_problems(min_rate: float | None, max_gap: int | None, pace: Pace) -> I
         yield f"the longest gap is {duration(pace.max_gap)}; the maximum is {duration(max_gap)}"
 
 
-def _availability(required: AvailabilityRequirement, measurement: Measurement) -> Result:
-    subject = f"{required.namespace}: " if required.namespace else ""
-    subject += f"{required.target} <- {required.source} at {required.at}"
-    return Result("availability", subject, tuple(_availability_problems(required, measurement)))
+def _availability(requirement: AvailabilityRequirement, measurement: Measurement) -> Result:
+    subject = f"{requirement.namespace}: " if requirement.namespace else ""
+    subject += f"{requirement.target} <- {requirement.source} at {requirement.at}"
+    return Result("availability", subject, tuple(_availability_problems(requirement, measurement)))
 
 
-def _availability_problems(required: AvailabilityRequirement, measurement: Measurement) -> Iterator[str]:
-    observation = measurement.observations.get(required.namespace)
-    sensors = [] if observation is None else [each for each in observation.sensors if each.topic == required.at]
+def _availability_problems(requirement: AvailabilityRequirement, measurement: Measurement) -> Iterator[str]:
+    observation = measurement.observations.get(requirement.namespace)
+    sensors = [] if observation is None else [each for each in observation.sensors if each.topic == requirement.at]
     if observation is None or not sensors:
-        yield f"no message on {required.at} has a stamp"
+        yield f"no message on {requirement.at} has a stamp"
         return
-    for frame in (required.target, required.source):
+    for frame in (requirement.target, requirement.source):
         if frame not in observation.frames:
             yield f"the frame {frame!r} was not published. {did_you_mean(frame, observation.frames)}".rstrip(". ")
             return
-    if observation.structure.chain(required.target, required.source) is None:
-        yield f"{required.target!r} and {required.source!r} are in different trees"
+    if observation.structure.chain(requirement.target, requirement.source) is None:
+        yield f"{requirement.target!r} and {requirement.source!r} are in different trees"
         return
-    share = _share(required, observation)
-    if share < required.share:
+    share = _share(requirement, observation)
+    if share < requirement.share:
         yield (
-            f"it was available within {duration(required.within)} for {_percent(share)} of the messages; the minimum "
-            f"is {_percent(required.share)}"
+            f"it was available within {duration(requirement.within)} for {_percent(share)} of the messages; "
+            "the minimum "
+            f"is {_percent(requirement.share)}"
         )
 
 
-def _share(required: AvailabilityRequirement, observation: Observation) -> float:
+def _share(requirement: AvailabilityRequirement, observation: Observation) -> float:
     waits = [
-        observation.waits_between(required.target, required.source, each.stamp, each.arrived)
+        observation.waits_between(requirement.target, requirement.source, each.stamp, each.arrived)
         for each in observation.sensors
-        if each.topic == required.at
+        if each.topic == requirement.at
     ]
-    return float(np.mean(np.concatenate(waits) <= required.within))
+    return float(np.mean(np.concatenate(waits) <= requirement.within))
 
 
 def _clock(contract: Contract, measurement: Measurement) -> Iterator[Result]:

@@ -123,15 +123,20 @@ def measure_live(config: ListenerConfig, seconds: float, topics: Iterable[str]) 
     return Measurement({"": observation}, measured)
 
 
-def pace_of(arrived: NDArray[np.int64], end: int) -> Pace:
+def pace_of(arrival_times: NDArray[np.int64], end: int) -> Pace:
     """Return the pace of messages from their arrival times, (N,) sorted, until an end."""
-    if not len(arrived):
+    if not len(arrival_times):
         return Pace(0)
-    steps = np.diff(arrived)
-    max_gap = int(max(steps.max(initial=0), end - arrived[-1]))
-    if not len(steps) or arrived[-1] == arrived[0]:
-        return Pace(len(arrived), None, max_gap)
-    return Pace(len(arrived), len(steps) * SECOND / int(arrived[-1] - arrived[0]), max_gap, int(np.median(steps)))
+    steps = np.diff(arrival_times)
+    max_gap = int(max(steps.max(initial=0), end - arrival_times[-1]))
+    if not len(steps) or arrival_times[-1] == arrival_times[0]:
+        return Pace(len(arrival_times), None, max_gap)
+    return Pace(
+        len(arrival_times),
+        len(steps) * SECOND / int(arrival_times[-1] - arrival_times[0]),
+        max_gap,
+        int(np.median(steps)),
+    )
 
 
 def _recorded_topics(recording: Recording) -> dict[str, MeasuredTopic]:

@@ -79,14 +79,14 @@ class Confinement:
     """
 
     def __init__(
-        self, folder: Path, scratch: Path, private: Iterable[str], *, has_namespaces: bool, number: int = 0
+        self, folder: Path, scratch: Path, private_folders: Iterable[str], *, has_namespaces: bool, number: int = 0
     ) -> None:
         """Prepare the programs of a folder.
 
         Args:
             folder: The student's folder.
             scratch: An empty folder.
-            private: Folders that they cannot read; see `private_folders`.
+            private_folders: Folders that they cannot read; see `private_folders`.
             has_namespaces: Whether this process can create namespaces.
             number: Index of this grade among those that run concurrently.
         """
@@ -98,7 +98,7 @@ class Confinement:
         root.mkdir()
         self.working_folder = root if os.name == "posix" else self._folder  # if no process is started in between
         self._solutions = solution_folders()
-        self._entries, self._links = view_of(folder, private, self._solutions)
+        self._entries, self._links = view_of(folder, private_folders, self._solutions)
         if self._decoys is None:
             self._entries += [(file, True) for file in entry_files(self._solutions)]
 

@@ -65,13 +65,13 @@ def _stop_listener(module: Any) -> None:
 
 
 def _zero_quaternion(transform: Any) -> None:
-    turned = transform.transform.rotation
-    turned.x = turned.y = turned.z = turned.w = 0.0
+    rotated = transform.transform.rotation
+    rotated.x = rotated.y = rotated.z = rotated.w = 0.0
 
 
 def _round_quaternion(transform: Any) -> None:
-    turned = transform.transform.rotation
-    turned.y = turned.w = 0.707
+    rotated = transform.transform.rotation
+    rotated.y = rotated.w = 0.707
 
 
 def _add_slash(transform: Any) -> None:
@@ -165,8 +165,8 @@ def _hang_arm_on_itself(_module: Any) -> None:
 
 def _turn_in_degrees(transform: Any) -> None:
     half = 90.0 / 2.0
-    turned = transform.transform.rotation
-    turned.y, turned.w = math.sin(half), math.cos(half)
+    rotated = transform.transform.rotation
+    rotated.y, rotated.w = math.sin(half), math.cos(half)
 
 
 def _jump(_module: Any) -> None:

@@ -86,7 +86,7 @@ def _grade(
     scratch: Path,
     confinement: Confinement,
     only: Sequence[str],
-    done: Callable[[Sheet], None],
+    on_sheet: Callable[[Sheet], None],
 ) -> None:
     """Run a student's nodes next to a simulated robot.
 
@@ -96,7 +96,7 @@ def _grade(
         scratch: An empty folder for the output of the nodes and the files that they write.
         confinement: The restrictions of the nodes.
         only: The criteria to check.
-        done: Called with the sheet of each criterion.
+        on_sheet: Called with the sheet of each criterion.
     """
     from coframe.course._world import World  # noqa: PLC0415
     from coframe.course.criteria.common import Task  # noqa: PLC0415 - the criteria import rclpy, which takes time
@@ -105,7 +105,7 @@ def _grade(
         task = Task(folder, assignment, world, scratch, confinement)
         for name in RUBRIC:
             if name in only:
-                done(importlib.import_module(f"coframe.course.criteria.{name}").check(task))
+                on_sheet(importlib.import_module(f"coframe.course.criteria.{name}").check(task))
 
 
 def _result_output() -> TextIO:

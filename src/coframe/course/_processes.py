@@ -92,13 +92,13 @@ def waiting_time(pid: int) -> float:
     return longest / SECOND
 
 
-def shared_memory(running: Iterable[Process]) -> int:
+def shared_memory(processes: Iterable[Process]) -> int:
     """Return the sizes of anonymous shared memory of processes, each once, in bytes.
 
     Unused parts are not included in their resident memory, but exist as long as a process can use them.
     """
     sizes: dict[str, int] = {}
-    for each in running:
+    for each in processes:
         with contextlib.suppress(OSError, ValueError):  # The process has ended.
             for line in (_PROC / str(each.pid) / "maps").read_text(errors="replace").splitlines():
                 fields = line.split(None, 5)

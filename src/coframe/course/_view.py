@@ -65,18 +65,18 @@ def private_folders(folder: Path) -> list[str]:
     return sorted({os.path.realpath(path) for path in found})
 
 
-def view_of(folder: Path, private: Iterable[str], solutions: Iterable[str]) -> View:
+def view_of(folder: Path, private_folders: Iterable[str], solutions: Iterable[str]) -> View:
     """Return the view of a program.
 
     Args:
         folder: The folder of the program.
-        private: Folders in which only installed packages and the program's folder can be read.
+        private_folders: Folders in which only installed packages and the program's folder can be read.
         solutions: Folders that cannot be read.
     """
     own = os.path.realpath(folder)
     # A file below a package folder belongs to a package, even if this process runs in that folder.
     packages = {os.path.realpath(path) for path in sysconfig.get_paths().values()}
-    hidden = {path for path in private if not any(_is_below(path, each) for each in packages)}
+    hidden = {path for path in private_folders if not any(_is_below(path, each) for each in packages)}
     installed = {os.path.realpath(path) for path in _installations()} - {*map(os.path.realpath, _PRIVATE_FOLDERS)}
     installed = {part for path in installed for part in _find_installed_parts(path, hidden)}
     others = {os.path.realpath(path) for path in _packages()}
@@ -88,10 +88,10 @@ def view_of(folder: Path, private: Iterable[str], solutions: Iterable[str]) -> V
     return View(_remove_redundant(readable, hidden - {own}), sorted(_links(own)))
 
 
-def _remove_redundant(readable: set[str], hidden: set[str]) -> list[tuple[str, bool]]:
+def _remove_redundant(readable: set[str], hidden_paths: set[str]) -> list[tuple[str, bool]]:
     """Return the entries without redundant ones."""
     found: dict[str, bool] = {}
-    for path in sorted(readable | hidden):
+    for path in sorted(readable | hidden_paths):
         is_readable = path in readable
         above = max((each for each in found if _is_below(path, each)), key=len, default=None)
         if is_readable != (above is not None and found[above]):
@@ -109,10 +109,10 @@ def _installations() -> Iterator[str]:
     yield from _folders_in_variables(_INSTALLATIONS)
 
 
-def _find_installed_parts(path: str, private: set[str]) -> Iterator[str]:
+def _find_installed_parts(path: str, private_folders: set[str]) -> Iterator[str]:
     """Yield an installation; only its own folders if it is in a folder with other files, such as a project."""
     is_system = any(_is_below(path, os.path.realpath(folder)) for folder in _SYSTEM)
-    if is_system or not any(_is_below(each, path) for each in private):
+    if is_system or not any(_is_below(each, path) for each in private_folders):
         yield path
     else:
         yield from (f"{path}/{name}" for name in _INSTALLATION_PARTS)
@@ -154,10 +154,10 @@ def _absolute_path(path: str) -> Iterator[str]:
         yield path
 
 
-def _links(own: str) -> Iterator[tuple[str, str]]:
+def _links(own_folder: str) -> Iterator[tuple[str, str]]:
     """Yield the symbolic links in the paths through which programs find readable files."""
     found: dict[str, str] = {}
-    for path in {own, sys.executable, *_installations(), *_packages()}:
+    for path in {own_folder, sys.executable, *_installations(), *_packages()}:
         rest, place = path.split("/")[:0:-1], "/"
         while rest and len(found) < _MAX_LINKS * _MAX_LINKS:
             name = rest.pop()

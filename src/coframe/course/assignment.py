@@ -81,8 +81,8 @@ def assignment_of(variant: int | None) -> Assignment:
     choose = random.Random(variant)  # noqa: S311 - not a secret
     step = 0.05  # meters
 
-    def length(least: int, most: int) -> float:
-        return round(choose.randint(least, most) * step, 2)
+    def length(minimum: int, most: int) -> float:
+        return round(choose.randint(minimum, most) * step, 2)
 
     return Assignment(
         variant,

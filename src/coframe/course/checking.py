@@ -139,7 +139,7 @@ def _report(folder: Path, results: _Results, missing: Sequence[str], reason: str
 
 def check_class(
     students: Mapping[str, Submission],
-    done: Callable[[str, dict[str, Any] | CourseError, bool], object],
+    on_result: Callable[[str, dict[str, Any] | CourseError, bool], object],
     *,
     jobs: int = 2,
     variants: Mapping[str, int | None] | None = None,
@@ -152,7 +152,7 @@ def check_class(
 
     Args:
         students: The submissions by name.
-        done: Called in this thread with the name of each submission, its report or the error that prevented it, and
+        on_result: Called in this thread with the name of each submission, its report or error, and
             whether the grade is complete, in order of completion.
         jobs: Number of submissions to grade in parallel.
         variants: The variant of each submission. None, or no entry, for that in its folder.
@@ -171,7 +171,7 @@ def check_class(
         if error is not None and not isinstance(error, CourseError):
             raise error
         if is_complete or error is None:
-            done(running[future], future.result() if error is None else error, is_complete)
+            on_result(running[future], future.result() if error is None else error, is_complete)
 
     cancelled = threading.Event()
     pool = ThreadPoolExecutor(jobs)

@@ -254,7 +254,7 @@ def _is_wanted(entry: zipfile.ZipInfo) -> bool:
     return not (entry.is_dir() or is_special or is_outside or _MACOS in name.parts)
 
 
-def _extract_entry(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, target: Path, left: int, name: str) -> int:
+def _extract_entry(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, target: Path, remaining: int, name: str) -> int:
     """Extract an entry, and return its number of bytes. The size in the archive may be wrong."""
     place = target.joinpath(*PurePosixPath(entry.filename.replace("\\", "/")).parts)
     place.parent.mkdir(parents=True, exist_ok=True)
@@ -262,7 +262,7 @@ def _extract_entry(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, target: Pat
     with archive.open(entry) as source, place.open("wb") as file:
         for block in iter(_reader(source.read), b""):
             written += len(block)
-            if written > left:
+            if written > remaining:
                 raise CourseError(
                     f"{name} contains more than the maximum of {MAX_EXTRACTED >> 20} MB.", hint="Extract it by hand."
                 )

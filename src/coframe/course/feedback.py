@@ -91,12 +91,12 @@ def _fact(fact: dict[str, Any], language: Language) -> Iterator[str]:
         )
 
 
-def _figures(criterion: dict[str, Any], shown: set[int], language: Language) -> Iterator[str]:
+def _figures(criterion: dict[str, Any], shown_figures: set[int], language: Language) -> Iterator[str]:
     """Yield the figures of the chapters to read about lost points, each once."""
     for fact in criterion["facts"]:
         match = _CHAPTER.search(fact["read"]) if fact["earned"] < fact["points"] else None
-        if match and int(match[1]) not in shown:
-            shown.add(int(match[1]))
+        if match and int(match[1]) not in shown_figures:
+            shown_figures.add(int(match[1]))
             if figure := chapter_figure(int(match[1])):
                 caption = html.escape(language.text(fact["read"]))
                 yield f"<figure>{language.figure(figure)}<figcaption>{caption}</figcaption></figure>"

@@ -49,12 +49,12 @@ class Similarity(NamedTuple):
     same_names: bool
 
 
-def similarities(folders: Mapping[str, Path], least: float = 0.6) -> list[Similarity]:
+def similarities(folders: Mapping[str, Path], minimum: float = 0.6) -> list[Similarity]:
     """Return the pairs of submissions with similar programs, the most similar ones first.
 
     Args:
         folders: The folders of the submissions by their names.
-        least: The minimum share.
+        minimum: The minimum share.
     """
     found = []
     for file in dict.fromkeys(row.file for row in RUBRIC.values() if row.file.endswith(".py")):
@@ -63,7 +63,7 @@ def similarities(folders: Mapping[str, Path], least: float = 0.6) -> list[Simila
         usable = {name: each for name, each in programs.items() if each is not None}
         for (first, one), (second, other) in combinations(usable.items(), 2):
             share = one.share(other)
-            if share >= least:
+            if share >= minimum:
                 found.append(Similarity(first, second, file, round(share, 3), one.names == other.names))
     return sorted(found, key=lambda each: (-each.share, each.first, each.second, each.file))
 

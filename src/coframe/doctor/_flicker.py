@@ -77,9 +77,9 @@ def flicker(edge: Edge) -> Flicker | None:
     return Flicker(len(rows), float(np.median(edge.distances[rows])), float(np.median(edge.rotation_steps[rows])), rows)
 
 
-def alternation_cause(edge: Edge, found: Flicker) -> str:
+def alternation_cause(edge: Edge, flicker: Flicker) -> str:
     """Return a clause with the mistake that explains how the two poses differ, or "" if no common mistake does."""
-    rows = found.rows[: 2 * _MAX_COMPARED : 2]  # every second jump returns
+    rows = flicker.rows[: 2 * _MAX_COMPARED : 2]  # every second jump returns
     explained = explain_mutual_difference(edge.poses(rows), edge.poses(rows + 1), **_tolerances(edge))
     return f"; {explained[0].text('the other', 'one of them')}" if explained else ""
 
@@ -114,11 +114,12 @@ def _typical_step(edge: Edge) -> tuple[float, float]:
     """
     rows = _sample(edge.count - _MAX_REVERSALS)
     moved = [
-        np.linalg.norm(edge.values[rows + turn, :3] - edge.values[rows, :3], axis=1)
-        for turn in range(1, _MAX_REVERSALS + 1)
+        np.linalg.norm(edge.values[rows + rotation, :3] - edge.values[rows, :3], axis=1)
+        for rotation in range(1, _MAX_REVERSALS + 1)
     ]
     turned = [
-        angles_between(edge.rotations[rows], edge.rotations[rows + turn]) for turn in range(1, _MAX_REVERSALS + 1)
+        angles_between(edge.rotations[rows], edge.rotations[rows + rotation])
+        for rotation in range(1, _MAX_REVERSALS + 1)
     ]
     return float(np.quantile(moved, _MIN_ALTERNATION_SHARE, axis=1).min()), float(
         np.quantile(turned, _MIN_ALTERNATION_SHARE, axis=1).min()

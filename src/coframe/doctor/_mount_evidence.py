@@ -72,8 +72,8 @@ def gravity_contradictions(observation: Observation) -> Iterator[Contradiction]:
         seen.add(imu.frame)
 
         def tilt_angle(turns: Sequence[Array], up: Array = up) -> float:
-            for turn in turns:
-                up = quaternion.rotate(turn, up)
+            for rotation in turns:
+                up = quaternion.rotate(rotation, up)
             return float(np.arccos(np.clip(up[2], -1.0, 1.0)))
 
         turns = [edge.rotations[-1] for edge in chain]
@@ -112,16 +112,16 @@ def points_contradictions(observation: Observation) -> Iterator[Contradiction]:
 
 
 def _find_by_overlap(
-    topic: str, chain: list[Edge], moving: list[Edge], scans: Sequence[ObservedPoints], cell: float
+    topic: str, chain: list[Edge], moving_edges: list[Edge], scans: Sequence[ObservedPoints], cell: float
 ) -> Contradiction | None:
     """Return the mount whose correction makes scans overlap in cells of a size, given as a share of the usual range."""
     times = np.concatenate([scan.times for scan in scans])
     points = np.concatenate([scan.points for scan in scans])
     number = np.repeat(np.arange(len(scans)), [len(scan.points) for scan in scans])
-    carried = _base_poses(moving, times)
+    carried = _base_poses(moving_edges, times)
     if len(points) < _MIN_POINTS or carried is None:
         return None
-    turn, place, known = carried
+    rotation, place, known = carried
     size = max(_MIN_CELL, cell * float(np.median(np.linalg.norm(points, axis=1))))
 
     def remaining(mounts: Sequence[Array]) -> float:
@@ -129,7 +129,7 @@ def _find_by_overlap(
         moved = points[known]
         for pose in mounts:
             moved = quaternion.rotate(pose[3:], moved) + pose[:3]
-        moved = quaternion.rotate(turn[known], moved) + place[known]
+        moved = quaternion.rotate(rotation[known], moved) + place[known]
         cells = np.floor(moved / size).astype(np.int64)
         cells -= cells.min(axis=0)
         keys = (cells[:, 0] << 42) + (cells[:, 1] << 21) + cells[:, 2]
@@ -189,11 +189,11 @@ def _window(scans: Sequence[ObservedPoints]) -> Sequence[ObservedPoints]:
     return [scan for scan in scans if scan.stamp <= scans[0].stamp + _WINDOW_DURATION]
 
 
-def _base_poses(moving: list[Edge], times: NDArray[np.int64]) -> tuple[Array, Array, NDArray[np.bool_]] | None:
+def _base_poses(moving_edges: list[Edge], times: NDArray[np.int64]) -> tuple[Array, Array, NDArray[np.bool_]] | None:
     """Return the pose of the robot in the root at given times: rotations, positions, and where all edges have data."""
-    turn, place = np.tile([0.0, 0.0, 0.0, 1.0], (len(times), 1)), np.zeros((len(times), 3))
+    rotation, place = np.tile([0.0, 0.0, 0.0, 1.0], (len(times), 1)), np.zeros((len(times), 3))
     known = np.ones(len(times), dtype=bool)
-    for edge in moving:
+    for edge in moving_edges:
         order = np.unique(edge.stamp, return_index=True)[1]
         if edge.static or len(order) < 2:
             between = np.repeat(edge.last_pose, len(times), axis=0)
@@ -201,8 +201,8 @@ def _base_poses(moving: list[Edge], times: NDArray[np.int64]) -> tuple[Array, Ar
             between, inside = _interpolate_poses(edge.stamp[order], edge.poses(order), times)
             known &= inside
         place = quaternion.rotate(between[:, 3:], place) + between[:, :3]
-        turn = quaternion.multiply(between[:, 3:], turn)
-    return (turn, place, known) if np.count_nonzero(known) >= _MIN_POINTS else None
+        rotation = quaternion.multiply(between[:, 3:], rotation)
+    return (rotation, place, known) if np.count_nonzero(known) >= _MIN_POINTS else None
 
 
 def _interpolate_poses(

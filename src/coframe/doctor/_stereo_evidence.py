@@ -119,10 +119,10 @@ def _contradiction(pair: _Pair) -> StereoContradiction | None:
     size, length = float(np.linalg.norm(expected)), float(np.linalg.norm(published))
     if length < _MIN_BASELINE:
         return None  # The driver publishes both cameras in one place, and the baseline in P only.
-    turn = _angle_to(relative, first, second)
+    rotation = _angle_to(relative, first, second)
     limit = max(_MAX_DISTANCE, _MAX_SHARE * size)
     fits = float(np.linalg.norm(published - expected)) < max(limit, 2.0 * np.sin(_MIN_WRONG_ANGLE) * size)
-    if fits and turn < _MIN_WRONG_ANGLE:
+    if fits and rotation < _MIN_WRONG_ANGLE:
         return None
     before = float(np.linalg.norm(published - expected)), turn
     found: StereoContradiction | None
@@ -166,9 +166,10 @@ def _wrong_mount(
     return None
 
 
-def _wrong_rotation(pair: _Pair, turn: float) -> StereoContradiction:
+def _wrong_rotation(pair: _Pair, rotation: float) -> StereoContradiction:
     text = (
-        f"the rotation between {pair.first.frame!r} and {pair.second.frame!r} differs by {degrees(turn):.3g} degrees "
+        f"the rotation between {pair.first.frame!r} and {pair.second.frame!r} differs by {degrees(rotation):.3g} "
+        "degrees "
         "from that of the calibration (R of both cameras)"
     )
     return StereoContradiction(pair.second.topic, text, "Calibrate the pair again, and publish both mounts from it.")

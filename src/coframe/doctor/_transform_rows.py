@@ -49,12 +49,12 @@ class TransformRows:
         self._columns["publisher"][rows] = number_names(self._publishers, batch.publishers)[batch.publisher]
         self._end = rows.stop
 
-    def forget(self, before: int, most: int) -> None:
+    def forget(self, cutoff: int, limit: int) -> None:
         """Remove the rows that arrived before a time, and the oldest ones beyond a maximum number."""
-        recent = self._columns["arrived"][self._begin : self._end] >= before
+        recent = self._columns["arrived"][self._begin : self._end] >= cutoff
         self._begin = self._begin + int(recent.argmax()) if recent.any() else self._end
-        if len(self) > most:
-            self._begin = self._end - most
+        if len(self) > limit:
+            self._begin = self._end - limit
             self.forgotten_until = int(self._columns["arrived"][self._begin - 1])
         if len(self._publishers) > _MAX_PUBLISHERS:
             self._forget_publishers()

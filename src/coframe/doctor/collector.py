@@ -54,7 +54,7 @@ class Collector:
         topic: str,
         static: bool,
         columns: TransformColumns,
-        arrived: NDArray[np.int64],
+        arrival_times: NDArray[np.int64],
         publisher: NDArray[np.int64],
         publishers: Sequence[str],
     ) -> None:
@@ -64,22 +64,22 @@ class Collector:
             topic: The topic of the messages.
             static: Whether it is a topic of static transforms.
             columns: The transforms.
-            arrived: (M,) time of arrival of each message.
+            arrival_times: (M,) time of arrival of each message.
             publisher: (M,) number of the publisher of each message.
             publishers: The names of the publishers, or "" for one that is unknown.
         """
-        self.messages[topic] = self.messages.get(topic, 0) + len(arrived)
+        self.messages[topic] = self.messages.get(topic, 0) + len(arrival_times)
         self.damaged += columns.damaged
-        self.empty += len(arrived) - columns.damaged - len(np.unique(columns.message))
+        self.empty += len(arrival_times) - columns.damaged - len(np.unique(columns.message))
         self._name_bytes += sum(len(name) for name in columns.names if name not in self._names)
         if len(self._names) > MAX_NAMES or self._name_bytes > MAX_NAME_BYTES:
-            self.ignored += len(arrived)
+            self.ignored += len(arrival_times)
             return
         if not len(columns.stamp):
             return
         names = number_names(self._names, columns.names)
         batch = Transforms(
-            arrived=arrived[columns.message],
+            arrived=arrival_times[columns.message],
             stamp=columns.stamp,
             parent=names[columns.parent],
             child=names[columns.child],
@@ -90,10 +90,10 @@ class Collector:
         )
         (self._static if static else self._dynamic_rows).append(batch)
 
-    def forget(self, before: int, most: int) -> None:
+    def forget(self, cutoff: int, limit: int) -> None:
         """Remove dynamic transforms that arrived before a time, and the oldest ones beyond a maximum number of rows."""
-        self._dynamic_rows.forget(before, most)
-        self._static.forget(0, most)
+        self._dynamic_rows.forget(cutoff, limit)
+        self._static.forget(0, limit)
 
     @property
     def forgotten_until(self) -> int:

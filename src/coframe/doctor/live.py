@@ -118,18 +118,18 @@ class _Topic:
         if len(self.headers) > MAX_MESSAGES:
             self.forgotten_until = self.headers.popleft().arrived
 
-    def add_decoded(self, size: int, arrived: int, message: Any) -> None:
+    def add_decoded(self, size: int, arrival_time: int, message: Any) -> None:
         """Store a message, and drop the oldest ones beyond the limits on number and bytes."""
-        self.decoded.append((arrived, message))
+        self.decoded.append((arrival_time, message))
         self._sizes.append(size)
         self._bytes += size
         while len(self.decoded) > MAX_MESSAGES or (self._bytes > MAX_DECODED_BYTES and len(self.decoded) > 1):
             self.forgotten_until = self.decoded[0][0]
             self._drop_oldest()
 
-    def forget(self, before: int) -> None:
+    def forget(self, cutoff: int) -> None:
         """Remove headers and decoded messages that arrived before a time, except latched descriptions."""
-        while self.headers and self.headers[0].arrived < before:
+        while self.headers and self.headers[0].arrived < cutoff:
             self.headers.popleft()
         while self.evidence and self.evidence[0][0] < before:
             self.evidence.popleft()
@@ -140,9 +140,9 @@ class _Topic:
         self.decoded.popleft()
         self._bytes -= self._sizes.popleft()
 
-    def is_over(self, before: int) -> bool:
+    def is_over(self, cutoff: int) -> bool:
         """Return whether nothing has arrived since a time."""
-        return not self.headers and not (self.decoded and self.decoded[-1][0] >= before)
+        return not self.headers and not (self.decoded and self.decoded[-1][0] >= cutoff)
 
 
 class LiveObserver:
@@ -309,13 +309,13 @@ class LiveObserver:
         number = list(processes).index(writer.process)
         return writer.node if number == 0 else f"{writer.node} (copy {number + 1})"
 
-    def _forget(self, before: int, present: set[int]) -> None:
+    def _forget(self, cutoff: int, present: set[int]) -> None:
         """Discard messages that arrived before a time, and departed writers without later messages."""
-        self._collector.forget(before, MAX_TRANSFORMS)
+        self._collector.forget(cutoff, MAX_TRANSFORMS)
         for topic in self._topics.values():
-            topic.forget(before)
+            topic.forget(cutoff)
         for delays in self._delays.values():
-            while delays and delays[0].arrived < before:
+            while delays and delays[0].arrived < cutoff:
                 delays.popleft()
         self._static_writers &= present
         if (self._writers.keys() | self._delays.keys()) <= present:
@@ -331,12 +331,12 @@ class LiveObserver:
             self._next_memory_return = time.monotonic() + _MEMORY_RETURN_PERIOD
             return_freed_blocks()
 
-    def _add_node_names(self, received: Transforms) -> Transforms:
+    def _add_node_names(self, transforms: Transforms) -> Transforms:
         """Replace the writer handles of the collector with the names of nodes."""
-        names = [self._node_of(int(handle)) for handle in received.publishers]
+        names = [self._node_of(int(handle)) for handle in transforms.publishers]
         number = {name: i for i, name in enumerate(dict.fromkeys(names))}
         numbers = np.array([number[name] for name in names], dtype=np.int64)
-        return replace(received, publisher=numbers[received.publisher], publishers=tuple(number))
+        return replace(transforms, publisher=numbers[transforms.publisher], publishers=tuple(number))
 
     def _delays_by_node(self) -> dict[str, NDArray[np.int64]]:
         by_name: dict[str, list[NDArray[np.int64]]] = {}

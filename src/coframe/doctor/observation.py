@@ -434,11 +434,11 @@ class Observation:
     def _offsets(self) -> dict[str, ClockOffset]:
         return {}
 
-    def _offset(self, stamp: NDArray[np.int64], arrived: NDArray[np.int64]) -> ClockOffset:
-        stamp, arrived = stamp[stamp != 0], arrived[stamp != 0]
+    def _offset(self, stamp: NDArray[np.int64], arrival_times: NDArray[np.int64]) -> ClockOffset:
+        stamp, arrival_times = stamp[stamp != 0], arrival_times[stamp != 0]
         is_simulated = self.usual_clock == "simulated" and self.clock is not None
-        now = self.clock.at(arrived) if is_simulated and self.clock is not None else arrived
-        return clock_offset(now - self._usual_lag - stamp, arrived)
+        now = self.clock.at(arrival_times) if is_simulated and self.clock is not None else arrival_times
+        return clock_offset(now - self._usual_lag - stamp, arrival_times)
 
     @cached_property
     def _usual_lag(self) -> int:
@@ -487,7 +487,7 @@ class Observation:
 
 
 def _waits(
-    edges: Iterable[Edge], stamp: NDArray[np.int64], last: NDArray[np.int64], arrived: NDArray[np.int64]
+    edges: Iterable[Edge], stamp: NDArray[np.int64], last: NDArray[np.int64], arrival_times: NDArray[np.int64]
 ) -> NDArray[np.int64]:
     """Return how long after each arrival all edges cover the time from a stamp to a last time; NEVER if they do not."""
     ready = np.zeros(len(stamp), dtype=np.int64)
@@ -498,4 +498,4 @@ def _waits(
             arrival = edge.arrived[np.minimum(row, edge.count - 1)]
             is_covered = (stamp == 0) | ((row < edge.count) & (stamp >= edge.stamp.min()))
             ready = np.maximum(ready, np.where(is_covered, arrival, NEVER))
-    return np.where(ready == NEVER, NEVER, np.maximum(ready - arrived, 0))
+    return np.where(ready == NEVER, NEVER, np.maximum(ready - arrival_times, 0))

@@ -138,16 +138,16 @@ def explain(
         >>> explain(published, expected).text("the URDF")
         'the pose agrees with the URDF within 0 mm and 0 degrees if its quaternion is read as w, x, y, z'
     """
-    place, turn = published[:, :3], published[:, 3:]
+    place, rotation = published[:, :3], published[:, 3:]
     right_place, right_turn = expected[:, :3], expected[:, 3:]
-    far, turned = _distance(place, right_place), _rotation(turn, right_turn)
+    far, turned = _distance(place, right_place), _rotation(rotation, right_turn)
     if far <= meters and turned <= radians:
         return None
     whole = _explain_inverse(published, expected, (meters, radians), (far, turned))
     if whole is not None:
         return whole
     moved = _first(_translations(right_turn), place, right_place, meters, _distance) if far > meters else None
-    rotated = _first(_AXIS_ROTATIONS, turn, right_turn, radians, _rotation) if turned > radians else None
+    rotated = _first(_AXIS_ROTATIONS, rotation, right_turn, radians, _rotation) if turned > radians else None
     parts = [part for part in (rotated, moved) if part is not None]
     if not parts:
         return None
@@ -179,22 +179,22 @@ def corrections(pose: Array) -> Iterator[Correction]:
 
     The caller compares them with other data: gravity, the points of a lidar, or the axes of a camera.
     """
-    place, turn = pose[:3], pose[None, 3:]
+    place, rotation = pose[:3], pose[None, 3:]
     inverse = inverse_poses(pose[None])[0]
     for mistake in _AXIS_ROTATIONS:
-        for turned in mistake.undo_mistake(turn):
+        for turned in mistake.undo_mistake(rotation):
             yield Correction(mistake.reading, mistake.fix, np.concatenate([place, turned[0]]))
     yield Correction(_INVERTED, _INVERTED_FIX, inverse)
 
 
-def rotation_text(turn: Array) -> str:
+def rotation_text(rotation: Array) -> str:
     """Return a rotation (4,) as roll, pitch and yaw in degrees.
 
     Example:
         >>> rotation_text(OPTICAL_ROTATION)
         'roll -90, pitch 0, yaw -90 degrees'
     """
-    angles = [f"{value + 0.0:.6g}" for value in np.round(np.degrees(quaternion.to_rpy(turn)), 2).tolist()]
+    angles = [f"{value + 0.0:.6g}" for value in np.round(np.degrees(quaternion.to_rpy(rotation)), 2).tolist()]
     return ", ".join(f"{name} {angle}" for name, angle in zip(_ANGLES, angles, strict=True)) + " degrees"
 
 
@@ -221,8 +221,8 @@ def _explain_inverse(
 
 def inverse_poses(poses: Array) -> Array:
     """Return the inverse of poses (N, 7)."""
-    turn = quaternion.inverse(poses[:, 3:])
-    return np.concatenate([-quaternion.rotate(turn, poses[:, :3]), turn], axis=1)
+    rotation = quaternion.inverse(poses[:, 3:])
+    return np.concatenate([-quaternion.rotate(rotation, poses[:, :3]), rotation], axis=1)
 
 
 class _MistakeFit(NamedTuple):
@@ -262,9 +262,9 @@ def _rotation(first: Array, second: Array) -> float:
 # Rotations
 
 
-def all_rpy_angles(turn: Array) -> list[Array]:
+def all_rpy_angles(rotation: Array) -> list[Array]:
     """Return all roll, pitch, yaw (N, 3) that give a rotation, with angles between -pi and pi."""
-    rpy = quaternion.to_rpy(turn)
+    rpy = quaternion.to_rpy(rotation)
     roll, pitch, yaw = rpy.T
     triples = [rpy, np.stack([roll + pi, pi - pitch, yaw + pi], axis=1)]
     if (np.abs(np.abs(pitch) - pi / 2) < _GIMBAL_LOCK).all():
@@ -275,8 +275,8 @@ def all_rpy_angles(turn: Array) -> list[Array]:
     return [(triple + pi) % (2.0 * pi) - pi for triple in triples]
 
 
-def _permute_angles(order: tuple[int, int, int], turn: Array) -> list[Array]:
-    return [quaternion.from_rpy(triple[:, order]) for triple in all_rpy_angles(turn)]
+def _permute_angles(order: tuple[int, int, int], rotation: Array) -> list[Array]:
+    return [quaternion.from_rpy(triple[:, order]) for triple in all_rpy_angles(rotation)]
 
 
 def _angle_order_mistake(order: tuple[int, int, int]) -> Mistake:
@@ -290,24 +290,24 @@ def _angle_order_mistake(order: tuple[int, int, int]) -> Mistake:
     )
 
 
-def _other_convention(turn: Array) -> list[Array]:
+def _other_convention(rotation: Array) -> list[Array]:
     """Return rotations about moving instead of fixed axes, in the order x, y, z."""
     found = []
-    for triple in all_rpy_angles(turn):
+    for triple in all_rpy_angles(rotation):
         parts = [quaternion.from_rpy(triple * np.eye(3)[axis]) for axis in range(3)]
         found.append(quaternion.multiply(quaternion.multiply(parts[0], parts[1]), parts[2]))
     return found
 
 
-def _from_fixed_axes(turn: Array) -> list[Array]:
+def _from_fixed_axes(rotation: Array) -> list[Array]:
     """Return the rotations about fixed axes with the angles that rotations about moving axes have."""
     # R = Rx(a) Ry(b) Rz(c) is the inverse of Rz(-c) Ry(-b) Rx(-a), whose roll, pitch and yaw are -a, -b, -c.
-    return [quaternion.from_rpy(-triple) for triple in all_rpy_angles(quaternion.inverse(turn))]
+    return [quaternion.from_rpy(-triple) for triple in all_rpy_angles(quaternion.inverse(rotation))]
 
 
-def _degrees_as_radians(turn: Array) -> list[Array]:
+def _degrees_as_radians(rotation: Array) -> list[Array]:
     found = []
-    for triple in all_rpy_angles(turn):
+    for triple in all_rpy_angles(rotation):
         angles = np.degrees(triple)
         for values in (angles, np.round(angles / _ANGLE_STEP) * _ANGLE_STEP):
             if np.abs(values - angles).max() > 0.1:  # degrees; not round
@@ -319,14 +319,14 @@ def _degrees_as_radians(turn: Array) -> list[Array]:
     return found
 
 
-def _round_degrees(turn: Array) -> list[Array]:
+def _round_degrees(rotation: Array) -> list[Array]:
     """Return the rotations by round angles in degrees that give these rotations if they are used as radians."""
     found = []
-    for triple in all_rpy_angles(turn[:1]):
+    for triple in all_rpy_angles(rotation[:1]):
         choices = [_round_angles(angle) for angle in triple[0].tolist()]
         if any(value != 0.0 for choice in choices for value in choice):
             found += [quaternion.from_rpy(np.radians([each])) for each in product(*choices) if any(each)]
-    return found if len(turn) == 1 else []
+    return found if len(rotation) == 1 else []
 
 
 def _round_angles(angle: float) -> list[float]:
@@ -335,61 +335,61 @@ def _round_angles(angle: float) -> list[float]:
     return [float(value) for value in values[off < _MAX_ANGLE_ERROR]]
 
 
-def _to_radians(turn: Array) -> list[Array]:
-    return [quaternion.from_rpy(np.radians(triple)) for triple in all_rpy_angles(turn)]
+def _to_radians(rotation: Array) -> list[Array]:
+    return [quaternion.from_rpy(np.radians(triple)) for triple in all_rpy_angles(rotation)]
 
 
-def _to_degrees(turn: Array) -> list[Array]:
-    return [quaternion.from_rpy(np.degrees(all_rpy_angles(turn)[0]))]
+def _to_degrees(rotation: Array) -> list[Array]:
+    return [quaternion.from_rpy(np.degrees(all_rpy_angles(rotation)[0]))]
 
 
-def _double_angle(turn: Array) -> list[Array]:
-    angles = [quaternion.from_rpy(2.0 * triple) for triple in all_rpy_angles(turn)]
-    return [quaternion.multiply(turn, turn), *angles]
+def _double_angle(rotation: Array) -> list[Array]:
+    angles = [quaternion.from_rpy(2.0 * triple) for triple in all_rpy_angles(rotation)]
+    return [quaternion.multiply(rotation, rotation), *angles]
 
 
-def _halve_angle(turn: Array) -> list[Array]:
+def _halve_angle(rotation: Array) -> list[Array]:
     one = np.array([0.0, 0.0, 0.0, 1.0])
     found = []
     for sign in (1.0, -1.0):
-        half = sign * turn + one
+        half = sign * rotation + one
         length = np.linalg.norm(half, axis=1, keepdims=True)
         if (length > 1e-6).all():
             found.append(half / length)
-    return [*found, *(quaternion.from_rpy(triple / 2.0) for triple in all_rpy_angles(turn))]
+    return [*found, *(quaternion.from_rpy(triple / 2.0) for triple in all_rpy_angles(rotation))]
 
 
-def _negate_angle(axis: int, turn: Array) -> list[Array]:
+def _negate_angle(axis: int, rotation: Array) -> list[Array]:
     signs = np.where(np.arange(3) == axis, -1.0, 1.0)
-    return [quaternion.from_rpy(triple * signs) for triple in all_rpy_angles(turn)[:1]]
+    return [quaternion.from_rpy(triple * signs) for triple in all_rpy_angles(rotation)[:1]]
 
 
-def _clear_angle(axis: int, turn: Array) -> list[Array]:
+def _clear_angle(axis: int, rotation: Array) -> list[Array]:
     kept = np.where(np.arange(3) == axis, 0.0, 1.0)
-    return [quaternion.from_rpy(triple * kept) for triple in all_rpy_angles(turn)]
+    return [quaternion.from_rpy(triple * kept) for triple in all_rpy_angles(rotation)]
 
 
-def _times(right: Array, turn: Array) -> list[Array]:
-    return [quaternion.multiply(turn, right[None])]
+def _times(right: Array, rotation: Array) -> list[Array]:
+    return [quaternion.multiply(rotation, right[None])]
 
 
-def _reorder_components(order: tuple[int, ...], turn: Array) -> list[Array]:
-    return [turn[:, order]]
+def _reorder_components(order: tuple[int, ...], rotation: Array) -> list[Array]:
+    return [rotation[:, order]]
 
 
 def _axis_rotation_mistake(axis: int, angle: int) -> Mistake:
-    turn = quaternion.from_rpy(np.radians(angle) * np.eye(3)[axis])
+    rotation = quaternion.from_rpy(np.radians(angle) * np.eye(3)[axis])
     axes = " (its axes are those of OpenGL: y up, z backward)" if (axis, angle) == (0, 180) else ""
     return Mistake(
         f"it is turned by {angle} degrees about its {_AXES[axis]} axis{axes}",
         f"Check the axes of the frame: it differs by {angle} degrees about {_AXES[axis]}.",
-        partial(_times, quaternion.inverse(turn)),
-        partial(_times, turn),
+        partial(_times, quaternion.inverse(rotation)),
+        partial(_times, rotation),
     )
 
 
-def _make_identity(turn: Array) -> list[Array]:
-    return [np.broadcast_to(np.array([0.0, 0.0, 0.0, 1.0]), turn.shape)]
+def _make_identity(rotation: Array) -> list[Array]:
+    return [np.broadcast_to(np.array([0.0, 0.0, 0.0, 1.0]), rotation.shape)]
 
 
 def _no_candidates(_: Array) -> list[Array]:
@@ -504,9 +504,9 @@ def _reorder_axes(order: tuple[int, ...], place: Array) -> list[Array]:
     return [place[:, order]]
 
 
-def _translations(turn: Array) -> list[Mistake]:
+def _translations(rotation: Array) -> list[Mistake]:
     """Return the mistakes in translations, given the right rotations."""
-    inverse = quaternion.inverse(turn)
+    inverse = quaternion.inverse(rotation)
     found = [
         Mistake(
             *_unit_mistake_texts(unit),
@@ -551,7 +551,7 @@ def _translations(turn: Array) -> list[Mistake]:
             "its translation, which is in the axes of the child, is rotated into those of the parent",
             "The translation of a transform is in the axes of the parent frame.",
             lambda place: [quaternion.rotate(inverse, place)],
-            lambda place: [quaternion.rotate(turn, place)],
+            lambda place: [quaternion.rotate(rotation, place)],
         )
     )
     found.append(
@@ -559,7 +559,7 @@ def _translations(turn: Array) -> list[Mistake]:
             "its translation, which is the position of the parent in the child, is inverted",
             "The translation of a transform is the position of the child frame in the parent frame: -R t.",
             lambda place: [-quaternion.rotate(inverse, place)],
-            lambda place: [-quaternion.rotate(turn, place)],
+            lambda place: [-quaternion.rotate(rotation, place)],
         )
     )
     found.append(

@@ -156,13 +156,13 @@ def collecting_callback(
     names = choice.renaming
     together = namespace_of(choice.topics[0]) if choice.topics else None
 
-    def collect(channel: Channel, received: NDArray[np.int64], messages: Slices) -> None:
+    def collect(channel: Channel, receive_times: NDArray[np.int64], messages: Slices) -> None:
         take = ingest_for(channel)
         if take is not None:
             namespace = namespace_of(channel.topic) if together is None else together
             collector = collectors.setdefault(namespace, Collector(names))
-            unknown = np.zeros(len(received), dtype=np.int64)
-            collector.add(channel.topic, take.static, take.columns(messages), received, unknown, [""])
+            unknown = np.zeros(len(receive_times), dtype=np.int64)
+            collector.add(channel.topic, take.static, take.columns(messages), receive_times, unknown, [""])
 
     return collect
 
@@ -228,13 +228,13 @@ class _Facts:
         arrived, stamp = self._recording.received("/clock"), self._recording.stamps("/clock")
         return ObservedClock(arrived, stamp) if len(stamp) else None
 
-    def _decode_first(self, topic: str, most: int) -> Iterator[Any]:
+    def _decode_first(self, topic: str, limit: int) -> Iterator[Any]:
         """Yield the first messages on a topic; damaged ones are reported as problems of the recording.
 
         The definition in a recording can differ from the usual one: any field can be missing, and a message without
         a usable definition is returned as bytes.
         """
-        messages = islice(self._recording.messages(topic), most)
+        messages = islice(self._recording.messages(topic), limit)
         while (recorded := next(messages, None)) is not None:
             try:
                 yield recorded.message

@@ -93,14 +93,14 @@ class ChainStatistics(NamedTuple):
     limit_share: float
 
 
-def edge_statistics(observation: Observation, most: int | None = None) -> list[EdgeStatistics]:
-    """Return one row per edge and publisher, in the order of their first transform, and at most `most` rows."""
+def edge_statistics(observation: Observation, limit: int | None = None) -> list[EdgeStatistics]:
+    """Return one row per edge and publisher, in the order of their first transform, and at most `limit` rows."""
     every = (
         _edge(observation, edge, publisher, edge.publisher == publisher)
         for edge in observation.edges
         for publisher in dict.fromkeys(edge.publisher.tolist())
     )
-    return list(islice(every, most))
+    return list(islice(every, limit))
 
 
 def publisher_statistics(observation: Observation) -> list[PublisherStatistics]:
@@ -169,10 +169,10 @@ def _edge(observation: Observation, edge: Edge, publisher: int, rows: NDArray[np
     )
 
 
-def _rate(arrived: NDArray[np.int64]) -> float | None:
-    if len(arrived) < 2 or arrived[-1] == arrived[0]:
+def _rate(arrival_times: NDArray[np.int64]) -> float | None:
+    if len(arrival_times) < 2 or arrival_times[-1] == arrival_times[0]:
         return None
-    return (len(arrived) - 1) * SECOND / float(arrived[-1] - arrived[0])
+    return (len(arrival_times) - 1) * SECOND / float(arrival_times[-1] - arrival_times[0])
 
 
 def _delays(lags: NDArray[np.int64] | None) -> tuple[float | None, float | None, float | None]:

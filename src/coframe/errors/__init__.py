@@ -403,7 +403,7 @@ def _frame_name_hint(failure: Failure) -> str:
     # The other frame of the lookup is not a candidate.
     others = [frame for frame in known if failure.name not in arguments or frame not in arguments]
     meant = _similar_names(failure.name, others)
-    frames = f"Known frames: {join_names(map(display_name, known), most=MAX_LISTED_FRAMES)}."
+    frames = f"Known frames: {join_names(map(display_name, known), limit=MAX_LISTED_FRAMES)}."
     if not meant:
         return frames
     target, source = (
@@ -430,7 +430,7 @@ def _trees(failure: Failure) -> str:
     structure = FrameTrees.from_parents(failure.parents)
     trees = [structure.tree(root) for root in roots]
     described = " and ".join(
-        f"{root!r} with {join_names(map(display_name, below), most=MAX_LISTED_FRAMES)}" if below else f"{root!r} alone"
+        f"{root!r} with {join_names(map(display_name, below), limit=MAX_LISTED_FRAMES)}" if below else f"{root!r} alone"
         for root, *below in trees
     )
     target_root, source_root = roots

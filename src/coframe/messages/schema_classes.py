@@ -145,22 +145,22 @@ class ResolvedSchema:
         """Return whether the message has a field."""
         return any(field.name == name for field in self.structures[self.name].fields)
 
-    def _add(self, name: str, structure: MessageStructure, above: list[str]) -> None:
+    def _add(self, name: str, structure: MessageStructure, outer_names: list[str]) -> None:
         if name in self.structures:
             return
-        if name in above:
-            chain = " > ".join([*above[above.index(name) :], name])
+        if name in outer_names:
+            chain = " > ".join([*outer_names[outer_names.index(name) :], name])
             raise InterfaceError(f"a message cannot contain itself: {chain}")
-        if len(above) > MAX_DEPTH:
+        if len(outer_names) > MAX_DEPTH:
             raise InterfaceError(f"messages are nested more than {MAX_DEPTH} levels deep")
-        above.append(name)
-        fields = [self._field(field, name, above) for field in structure.fields]
+        outer_names.append(name)
+        fields = [self._field(field, name, outer_names) for field in structure.fields]
         if [field.name for field in fields] == ["structure_needs_at_least_one_member"]:
             fields = []  # rosidl writes this member into structures without fields.
-        above.pop()
+        outer_names.pop()
         self.structures[name] = MessageStructure(fields, structure.constants, structure.comment)
 
-    def _field(self, field: Field, owner: str, above: list[str]) -> Field:
+    def _field(self, field: Field, owner: str, outer_names: list[str]) -> Field:
         type_ = _value_type(field.type)
         if type_ is None:
             return field
@@ -168,7 +168,7 @@ class ResolvedSchema:
         name = self._schema.find(type_, home)
         if name is not None:
             try:
-                self._add(name, self._schema.structures[name], above)
+                self._add(name, self._schema.structures[name], outer_names)
             except InterfaceError as error:
                 error.line = error.line or self._schema.find_line(owner, field.name)
                 raise

@@ -13,19 +13,19 @@ if TYPE_CHECKING:
 __all__ = ["extremes"]
 
 
-def extremes(values: NDArray[np.float64], most: int) -> NDArray[np.intp]:
-    """Return the indices of about ``most`` values: the minimum and maximum of equal parts, so that no peak is lost.
+def extremes(values: NDArray[np.float64], limit: int) -> NDArray[np.intp]:
+    """Return the indices of about ``limit`` values: the minimum and maximum of equal parts, so that no peak is lost.
 
     Args:
         values: (N,); NaN is a gap.
-        most: The number of values to keep, at least 4; all indices are returned if there are no more values than this.
+        limit: The number of values to keep, at least 4; all indices are returned if there are no more values than this.
 
     Returns:
         The indices in order. They include the first and the last one.
     """
-    if len(values) <= most:
+    if len(values) <= limit:
         return np.arange(len(values))
-    size = -(-len(values) * 2 // most)
+    size = -(-len(values) * 2 // limit)
     padded = np.full(-(-len(values) // size) * size, np.nan)
     padded[: len(values)] = values
     parts = padded.reshape(-1, size)

@@ -147,21 +147,21 @@ def deskew(
     return result  # type: ignore[no-any-return]
 
 
-def _mark_field(field: Any, used: set[str]) -> Any:
-    if field.name not in used:
+def _mark_field(field: Any, used_fields: set[str]) -> Any:
+    if field.name not in used_fields:
         return field
     field = copy.copy(field)
     field.name = f"{DESKEWED_PREFIX}{field.name}"
     return field
 
 
-def _mark_array(points: NDArray[Any], used: set[str]) -> NDArray[Any]:
-    if points.dtype.names is None or points.dtype.fields is None or not used & {*points.dtype.names}:
+def _mark_array(points: NDArray[Any], used_fields: set[str]) -> NDArray[Any]:
+    if points.dtype.names is None or points.dtype.fields is None or not used_fields & {*points.dtype.names}:
         return points
     kinds = [points.dtype.fields[name] for name in points.dtype.names]
     dtype = np.dtype(
         {
-            "names": [f"{DESKEWED_PREFIX}{name}" if name in used else name for name in points.dtype.names],
+            "names": [f"{DESKEWED_PREFIX}{name}" if name in used_fields else name for name in points.dtype.names],
             "formats": [kind[0] for kind in kinds],
             "offsets": [kind[1] for kind in kinds],
             "itemsize": points.dtype.itemsize,

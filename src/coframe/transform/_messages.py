@@ -301,8 +301,8 @@ def _fill_list(message: Any, transform: Transform) -> Contents:
     return contents(message)
 
 
-def _headers(message: Any, found: Contents) -> list[Any]:
-    headers = [header for pose in found.poses for header in pose.headers]
+def _headers(message: Any, contents: Contents) -> list[Any]:
+    headers = [header for pose in contents.poses for header in pose.headers]
     if hasattr(getattr(message, "header", None), "frame_id"):
         headers.append(message.header)
     return list({id(header): header for header in headers}.values())

@@ -39,9 +39,9 @@ def build_forest(observation: Observation) -> Forest:
     return Forest(observation.start, observation.end, observation.live, frames, counts, loops)
 
 
-def _frame(number: int, trees: FrameTrees, figures: list[EdgeStatistics], seen: Observation) -> Frame:
+def _frame(number: int, trees: FrameTrees, figures: list[EdgeStatistics], observation: Observation) -> Frame:
     name, root = trees.names[number], trees.roots[trees.components[number]]
-    edge = seen.last.get(name)
+    edge = observation.last.get(name)
     parent = "" if edge is None else edge.parent
     return Frame(
         name=name,
@@ -52,6 +52,6 @@ def _frame(number: int, trees: FrameTrees, figures: list[EdgeStatistics], seen: 
         children=tuple(trees.names[child] for child in trees.children[number] if child != root),
         edges=tuple(figure for figure in figures if figure.parent == parent),
         other_edges=tuple(figure for figure in figures if figure.parent != parent),
-        silence=seen.silence(edge) if edge is not None and seen.is_stale(edge) else None,
-        offset=None if edge is None else wrong_offset(seen, edge),
+        silence=observation.silence(edge) if edge is not None and observation.is_stale(edge) else None,
+        offset=None if edge is None else wrong_offset(observation, edge),
     )

@@ -110,13 +110,13 @@ def _find_package(name: str) -> ModuleSpec | None:
     return None
 
 
-def _find_kind(package: str, kind: str, above: list[str]) -> ModuleSpec | None:
+def _find_kind(package: str, kind: str, searched: list[str]) -> ModuleSpec | None:
     from coframe.interfaces.definition_files import definitions_in  # noqa: PLC0415 - as in _find_package
     from coframe.interfaces.ownership import is_own  # noqa: PLC0415
     from coframe.interfaces.sources import find_folder  # noqa: PLC0415
 
     # If the folder of the package has no code, the folders above are where Python found it.
-    found = [find_folder(package), *(Path(folder) for folder in above if is_own(Path(folder)))]
+    found = [find_folder(package), *(Path(folder) for folder in searched if is_own(Path(folder)))]
     for folder in filter(None, found):
         if any(file.startswith(f"{kind}/") for file in definitions_in(folder)):
             return _spec(f"{package}.{kind}", _KindLoader(folder))

@@ -73,12 +73,12 @@ class ConvertingSource(Source):
         recording = self.recording
         return (recording.received_start, recording.received_end) if recording.received_end else None
 
-    def messages(self, wanted: Callable[[Channel], bool]) -> Iterator[tuple[Channel, int, bytes]]:
+    def messages(self, is_selected: Callable[[Channel], bool]) -> Iterator[tuple[Channel, int, bytes]]:
         """Yield the messages of some channels in receive order."""
-        names = {found[0].topic for found in self._conversions.values() if found is not None and wanted(found[0])}
+        names = {found[0].topic for found in self._conversions.values() if found is not None and is_selected(found[0])}
         for channel, received, data in self.recording.in_order(sorted(names)):
             found = self._conversions.get(channel)
-            if found is None or not wanted(found[0]):
+            if found is None or not is_selected(found[0]):
                 continue
             try:
                 converted = found[1](data)
@@ -105,14 +105,14 @@ class ConvertingEditor:
         source: ConvertingSource,
         target: Path | None,
         pipeline: Pipeline,
-        inserted: list[InsertedMessage],
+        inserted_messages: list[InsertedMessage],
         compression: str | None,
         edited: EditedFile,
     ) -> None:
         self._source = source
         self._writer = None if target is None else MCAP.create(target, compression or "zstd")
         self._pipeline = pipeline
-        self._inserted_messages = inserted
+        self._inserted_messages = inserted_messages
         self._edited_file = edited
         self._numbers: dict[tuple[str, str], int] = {}
 
@@ -143,9 +143,9 @@ class ConvertingEditor:
             if self._writer is not None:
                 self._writer.close()
 
-    def _write(self, topic: str, channel: Channel, data: bytes, received: int) -> None:
+    def _write(self, topic: str, channel: Channel, data: bytes, receive_time: int) -> None:
         self._edited_file.counts[topic] = self._edited_file.counts.get(topic, 0) + 1
-        self._edited_file.add_span(received, received)
+        self._edited_file.add_span(receive_time, receive_time)
         if self._writer is None:
             return
         key = (topic, channel.type)
@@ -159,6 +159,6 @@ class ConvertingEditor:
                 definition_format=channel.definition_format,
                 metadata={"offered_qos_profiles": qos},
             )
-        self._writer.write(self._numbers[key], data, received, received)
+        self._writer.write(self._numbers[key], data, receive_time, receive_time)
         if self._writer.pending >= _MAX_CHUNK_BYTES:
             self._writer.flush()

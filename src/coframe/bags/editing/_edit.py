@@ -174,8 +174,8 @@ def _write(
     return written
 
 
-def _add(progress: Callable[[int, int], object], before: int, total: int, read: int) -> None:
-    progress(before + read, total)
+def _add(progress: Callable[[int, int], object], previous: int, total: int, read: int) -> None:
+    progress(previous + read, total)
 
 
 def _count_changes(rule: Rule, survey: Survey) -> RuleCount:

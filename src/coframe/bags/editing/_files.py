@@ -49,20 +49,20 @@ class InputFile:
         self,
         target: Path | None,
         pipeline: Pipeline,
-        inserted: list[InsertedMessage],
+        inserted_messages: list[InsertedMessage],
         compression: str | None,
         edited: EditedFile,
         progress: Callable[[int], object],
     ) -> None:
         """Write the edited file; None as the target writes nothing."""
         if isinstance(self.source, McapSource):
-            McapEditor(self.path, target, pipeline, self.source.definitions, inserted, compression, edited).run(
-                progress
-            )
+            McapEditor(
+                self.path, target, pipeline, self.source.definitions, inserted_messages, compression, edited
+            ).run(progress)
         elif isinstance(self.source, SqliteSource):
-            SqliteEditor(self.source, target, pipeline, inserted, edited).run(progress)
+            SqliteEditor(self.source, target, pipeline, inserted_messages, edited).run(progress)
         else:
-            ConvertingEditor(self.source, target, pipeline, inserted, compression, edited).run(progress)
+            ConvertingEditor(self.source, target, pipeline, inserted_messages, compression, edited).run(progress)
 
 
 @dataclass
@@ -94,10 +94,10 @@ class EditedInput(Source):
         spans = [span for file in self.files if (span := file.source.span()) is not None]
         return (min(first for first, _ in spans), max(last for _, last in spans)) if spans else None
 
-    def messages(self, wanted: Callable[[Channel], bool]) -> Iterator[tuple[Channel, int, bytes]]:
+    def messages(self, is_selected: Callable[[Channel], bool]) -> Iterator[tuple[Channel, int, bytes]]:
         """Yield the messages of some channels in file order."""
         for file in self.files:
-            yield from file.source.messages(wanted)
+            yield from file.source.messages(is_selected)
 
 
 def read_input(path: Path, types: RecordedTypes, problems: Problems, closing: ExitStack) -> EditedInput:

@@ -70,7 +70,7 @@ class McapEditor:
         target: Path | None,
         pipeline: Pipeline,
         definitions: mcap.Definitions,
-        inserted: list[InsertedMessage],
+        inserted_messages: list[InsertedMessage],
         compression: str | None,
         edited: EditedFile,
     ) -> None:
@@ -78,7 +78,7 @@ class McapEditor:
         self._target = target
         self._pipeline = pipeline
         self._all = definitions
-        self._inserted_messages = inserted
+        self._inserted_messages = inserted_messages
         self._compression = None if compression is None else ("" if compression == "none" else compression)
         self._edited_file = edited
         self._definitions = mcap.Definitions()
@@ -201,9 +201,9 @@ class McapEditor:
         records: NDArray[np.uint64],
         starts: NDArray[np.uint64],
         ends: NDArray[np.uint64],
-        kept: NDArray[np.bool_],
+        keep_mask: NDArray[np.bool_],
     ) -> list[tuple[int, int, bytes]]:
-        """Edit the messages in some rows. Return their replacements, and update their times and `kept`."""
+        """Edit the messages in some rows. Return their replacements, and update their times and `keep_mask`."""
         patches: list[tuple[int, int, bytes]] = []
         unpack, size = mcap.MESSAGE_HEAD.unpack_from, mcap.MESSAGE_HEAD.size
         columns = (rows, channels[rows], records[rows], starts[rows], ends[rows])
@@ -227,7 +227,7 @@ class McapEditor:
                     patches.append((record, end, packed + new))
                     times[row] = message.received
                     continue
-            kept[row] = False
+            keep_mask[row] = False
             patches.append((record, end, b""))
         return patches
 
@@ -409,7 +409,7 @@ def _apply_patches(
     channels: NDArray[np.uint16],
     times: NDArray[np.uint64],
     records: NDArray[np.uint64],
-    kept: NDArray[np.bool_],
+    keep_mask: NDArray[np.bool_],
 ) -> IndexedRecords:
     """Return the records with replaced parts, and of each message that is kept its channel, time and new offset."""
     out, position = bytearray(), 0
@@ -421,7 +421,7 @@ def _apply_patches(
     out += view[position:]
     starts = np.fromiter((patch[0] for patch in patches), np.int64, len(patches))
     moved = np.cumsum(np.fromiter((len(new) - (end - start) for start, end, new in patches), np.int64, len(patches)))
-    before = np.searchsorted(starts, records[kept].astype(np.int64), side="left")
+    before = np.searchsorted(starts, records[keep_mask].astype(np.int64), side="left")
     shift = np.where(before > 0, moved[before - 1], 0)
-    offsets = (records[kept].astype(np.int64) + shift).astype(np.uint64)
-    return IndexedRecords(out, channels[kept], times[kept], offsets)
+    offsets = (records[keep_mask].astype(np.int64) + shift).astype(np.uint64)
+    return IndexedRecords(out, channels[keep_mask], times[keep_mask], offsets)

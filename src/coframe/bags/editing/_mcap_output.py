@@ -117,9 +117,9 @@ class McapOutput:
         head += mcap.encoded_text(compression)
         indexes = list(_message_indexes(records))
 
-        def write(packed: Data) -> None:
-            chunk = _Chunk((first, last), compression, len(packed), len(data))
-            self._write_chunk(chunk, head + struct.pack("<Q", len(packed)), packed)
+        def write(packed_data: Data) -> None:
+            chunk = _Chunk((first, last), compression, len(packed_data), len(data))
+            self._write_chunk(chunk, head + struct.pack("<Q", len(packed_data)), packed_data)
             for index in indexes:
                 self._write_message_index(index)
 

@@ -55,9 +55,9 @@ class McapSource(Source):
         """Return the first and last log time."""
         return self._span
 
-    def messages(self, wanted: Callable[[Channel], bool]) -> Iterator[tuple[Channel, int, bytes]]:
+    def messages(self, is_selected: Callable[[Channel], bool]) -> Iterator[tuple[Channel, int, bytes]]:
         """Yield the messages of some channels in file order."""
-        numbers = {number for number, channel in self.definitions.channels.items() if wanted(channel)}
+        numbers = {number for number, channel in self.definitions.channels.items() if is_selected(channel)}
         for data in self._blocks(numbers):
             columns = _core.mcap_records(data)
             channels = np.frombuffer(columns[0], np.uint16)

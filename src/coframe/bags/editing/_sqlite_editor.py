@@ -113,9 +113,9 @@ class SqliteSource(Source):
         except DAMAGE_ERRORS as error:
             raise DamagedError(f"the database cannot be read: {error}") from None
 
-    def messages(self, wanted: Callable[[Channel], bool]) -> Iterator[tuple[Channel, int, bytes]]:
+    def messages(self, is_selected: Callable[[Channel], bool]) -> Iterator[tuple[Channel, int, bytes]]:
         """Yield the messages of some channels in the order of their rows."""
-        numbers = [number for number, channel in self.by_number.items() if wanted(channel)]
+        numbers = [number for number, channel in self.by_number.items() if is_selected(channel)]
         try:
             condition = f"topic_id IN ({', '.join(map(str, numbers))})"
             for _, number, received, data in self.database.rows("messages", f"topic_id, timestamp, {_DATA}", condition):
@@ -146,13 +146,13 @@ class SqliteEditor:
         source: SqliteSource,
         target: Path | None,
         pipeline: Pipeline,
-        inserted: list[InsertedMessage],
+        inserted_messages: list[InsertedMessage],
         edited: EditedFile,
     ) -> None:
         self._source = source
         self._target = target
         self._pipeline = pipeline
-        self._inserted_messages = inserted
+        self._inserted_messages = inserted_messages
         self._edited_file = edited
         self._routes: dict[int, Route] = {n: pipeline.route(each) for n, each in source.by_number.items()}
         self._kept_numbers: dict[int, int] = dict.fromkeys(self._routes, 0)
@@ -256,12 +256,12 @@ class SqliteEditor:
             raise DamagedError(f"the database cannot be read: {error}") from None
         self._flush()
 
-    def _add(self, row: int, number: int, received: int, data: bytes) -> None:
+    def _add(self, row: int, number: int, receive_time: int, data: bytes) -> None:
         self._kept_numbers[number] += 1
-        self._edited_file.add_span(received, received)
+        self._edited_file.add_span(receive_time, receive_time)
         if self._target is None:
             return
-        self._pending.append((row, number, received, data))
+        self._pending.append((row, number, receive_time, data))
         self._pending_bytes += len(data)
         if self._pending_bytes > _BATCH_BYTES:
             self._flush()
@@ -272,8 +272,8 @@ class SqliteEditor:
         self._pending, self._pending_bytes = [], 0
 
 
-def _channel(row: dict[str, Any], described: dict[str, dict[str, Any]]) -> Channel:
-    definition = described.get(row["type"], {})
+def _channel(row: dict[str, Any], descriptions: dict[str, dict[str, Any]]) -> Channel:
+    definition = descriptions.get(row["type"], {})
     return Channel(
         str(row["name"]),
         str(row["type"]),

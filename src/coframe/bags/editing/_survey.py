@@ -36,7 +36,7 @@ class Source:
         """Return the first and last receive time in nanoseconds, or None if there are no messages."""
         raise NotImplementedError
 
-    def messages(self, wanted: Callable[[Channel], bool]) -> Iterator[tuple[Channel, int, bytes]]:
+    def messages(self, is_selected: Callable[[Channel], bool]) -> Iterator[tuple[Channel, int, bytes]]:
         """Yield the messages of some channels in file order: channel, receive time, bytes."""
         raise NotImplementedError
 
@@ -121,9 +121,9 @@ class Survey:
                         found.setdefault((topic.name, one.child), new)
         return list(found.values())
 
-    def messages(self, wanted: Callable[[EditedTopic], bool]) -> Iterator[tuple[EditedTopic, int, EditedMessage]]:
+    def messages(self, is_selected: Callable[[EditedTopic], bool]) -> Iterator[tuple[EditedTopic, int, EditedMessage]]:
         """Yield the messages on some topics, as recorded, with the names of their topics after the rules before."""
-        for topic, received, message in self._messages(lambda topic: wanted(self._rename_topic(topic))):
+        for topic, received, message in self._messages(lambda topic: is_selected(self._rename_topic(topic))):
             yield self._rename_topic(topic), received, message
 
     @cached_property
@@ -142,9 +142,9 @@ class Survey:
                 break
         return found - {""}
 
-    def _messages(self, wanted: Callable[[EditedTopic], bool]) -> Iterator[tuple[EditedTopic, int, EditedMessage]]:
+    def _messages(self, is_selected: Callable[[EditedTopic], bool]) -> Iterator[tuple[EditedTopic, int, EditedMessage]]:
         topics = {channel: EditedTopic(channel, channel.topic, self._types) for channel in self._source.channels()}
-        chosen = {channel for channel, topic in topics.items() if wanted(topic)}
+        chosen = {channel for channel, topic in topics.items() if is_selected(topic)}
         if chosen:
             for channel, received, data in self._source.messages(chosen.__contains__):
                 yield topics[channel], received, EditedMessage(data, received, received)

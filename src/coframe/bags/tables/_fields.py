@@ -143,7 +143,7 @@ class FieldReader:
 
     def _no_field(self, written: str, name: str, fields: Iterable[str]) -> RecordingError:
         known = list(fields)
-        there = f"Fields: {join_names(known, most=_MAX_LISTED_NAMES)}." if known else "It has no fields."
+        there = f"Fields: {join_names(known, limit=_MAX_LISTED_NAMES)}." if known else "It has no fields."
         return RecordingError(
             f"{self._label}: {written} has no field {name!r}", hint=f"{did_you_mean(name, known)} {there}".strip()
         )

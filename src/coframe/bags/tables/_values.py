@@ -108,18 +108,18 @@ def _interpolate(first: NDArray[Any], second: NDArray[Any], share: NDArray[np.fl
     return _mix_arrays(first.astype(np.float64), second.astype(np.float64), weight)
 
 
-def _mix_sequences(one: Any, other: Any, share: float) -> Any:
+def _mix_sequences(first: Any, second: Any, share: float) -> Any:
     """Return a sequence between two of the same length, or None if their lengths differ."""
-    if one is None or other is None or len(one) != len(other):
+    if first is None or second is None or len(first) != len(second):
         return None
-    return _mix_arrays(one.astype(np.float64), other.astype(np.float64), np.full(len(one), share))
+    return _mix_arrays(first.astype(np.float64), second.astype(np.float64), np.full(len(first), share))
 
 
-def _mix_arrays(one: NDArray[np.float64], other: NDArray[np.float64], share: NDArray[np.float64]) -> NDArray[Any]:
+def _mix_arrays(first: NDArray[np.float64], second: NDArray[np.float64], share: NDArray[np.float64]) -> NDArray[Any]:
     with np.errstate(invalid="ignore", over="ignore"):
-        mixed = (1.0 - share) * one + share * other
+        mixed = (1.0 - share) * first + share * second
     # At the stamp of a message, and between equal values, the value is exact: also if it is infinite.
-    return np.where((share == 0) | (one == other), one, np.where(share == 1, other, mixed))
+    return np.where((share == 0) | (first == second), first, np.where(share == 1, second, mixed))
 
 
 def _interpolate_rotations(

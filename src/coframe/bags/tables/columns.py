@@ -162,11 +162,11 @@ class Column:
 ColumnLike: TypeAlias = "str | tuple[str, str] | Transform | Column"
 
 
-def column(given: ColumnLike) -> Column:
+def column(spec: ColumnLike) -> Column:
     """Return a column for a string, a pair of frames, or a column.
 
     Args:
-        given: Text may have a name before it and a method with a tolerance after it:
+        spec: Text may have a name before it and a method with a tolerance after it:
             ``"speed=/odom.twist.twist.linear.x@previous:100ms"``.
 
     Raises:
@@ -176,26 +176,26 @@ def column(given: ColumnLike) -> Column:
         >>> column("speed=/odom.twist.twist.linear.x@previous:100ms").name
         'speed'
     """
-    if isinstance(given, Column):
-        return given
-    if isinstance(given, Transform):
-        return Column(given)
-    if isinstance(given, str):
-        return _parse_column(given)
-    other: object = given
+    if isinstance(spec, Column):
+        return spec
+    if isinstance(spec, Transform):
+        return Column(spec)
+    if isinstance(spec, str):
+        return _parse_column(spec)
+    other: object = spec
     if isinstance(other, tuple | list) and list(map(type, other)) == [str, str]:
         return Column((other[0], other[1]))
-    raise RecordingError(f"{given!r} is not a column", hint=_EXAMPLES)
+    raise RecordingError(f"{spec!r} is not a column", hint=_EXAMPLES)
 
 
-def column_list(given: ColumnLike | Sequence[ColumnLike]) -> list[ColumnLike]:
+def column_list(spec: ColumnLike | Sequence[ColumnLike]) -> list[ColumnLike]:
     """Return columns as a list. A tuple of two names is one pose if they are names of frames."""
-    if isinstance(given, str | Column | Transform):
-        return [given]
-    is_pose = isinstance(given, tuple) and list(map(type, given)) == [str, str]
-    if is_pose and not any(str(each).startswith("/") or ":" in str(each) for each in given):
-        return [(str(given[0]), str(given[1]))]
-    return list(given)
+    if isinstance(spec, str | Column | Transform):
+        return [spec]
+    is_pose = isinstance(spec, tuple) and list(map(type, spec)) == [str, str]
+    if is_pose and not any(str(each).startswith("/") or ":" in str(each) for each in spec):
+        return [(str(spec[0]), str(spec[1]))]
+    return list(spec)
 
 
 def _parse_column(text: str) -> Column:

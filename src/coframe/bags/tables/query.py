@@ -232,10 +232,14 @@ class _Evaluation:
             raise RecordingError(f"{rate:g} rows per second over {duration(length)} are more than {MAX_ROWS} rows")
         return stamps_at_rate(common, start, stop, rate)
 
-    def _nanoseconds(self, when: StampLike | str | None) -> int | None:
-        if when is None:
+    def _nanoseconds(self, time_point: StampLike | str | None) -> int | None:
+        if time_point is None:
             return None
-        return parse_time_point(when, self._recording.span) if isinstance(when, str) else time.stamp_ns(when)
+        return (
+            parse_time_point(time_point, self._recording.span)
+            if isinstance(time_point, str)
+            else time.stamp_ns(time_point)
+        )
 
     def _batch_rows(self) -> int:
         """Return how many rows a batch has: few if their messages are large."""

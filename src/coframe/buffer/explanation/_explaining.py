@@ -74,7 +74,7 @@ def explain(
     code = error.code if error else ""
     frames, steps, roots = _Chain((), [], None) if code in _NAME_ERRORS else _chain(seen, target, source, when)
     infos = {info.child: info for info in seen.edges([step.child for step in steps])}
-    present = _current_time(now, max((info.newest for info in infos.values()), default=0), recorded=recorded)
+    present = _current_time(now, max((info.newest for info in infos.values()), default=0), is_recorded=recorded)
     edges = tuple(_edge(seen, step, infos[step.child], when, stamp, present) for step in steps)
     found = Explanation(
         target=target,
@@ -95,7 +95,7 @@ def explain(
         cache=seen.cache_ns,
         now=present,
     )
-    return found if error is None else replace(found, hint=advice(found, error, recorded=recorded))
+    return found if error is None else replace(found, hint=advice(found, error, is_recorded=recorded))
 
 
 def _look_up(buffer: Buffer, target: str, source: str, stamp: int) -> tuple[int | None, TransformException | None]:
@@ -137,24 +137,26 @@ def _find_steps_above(buffer: Buffer, frames: tuple[str, ...], stamp: int) -> di
     return steps
 
 
-def _current_time(now: StampLike | None, newest: int, *, recorded: bool) -> int | None:
+def _current_time(now: StampLike | None, newest: int, *, is_recorded: bool) -> int | None:
     if now is not None:
         return stamp_ns(now)
-    return None if recorded else current_time_for(newest)
+    return None if is_recorded else current_time_for(newest)
 
 
-def _edge(buffer: Buffer, step: _Step, info: EdgeInfo, when: int, stamp: int, present: int | None) -> ChainEdge:
-    late = step.state == "too_new" or (step.state == "only_other" and when > info.newest)
+def _edge(
+    buffer: Buffer, step: _Step, info: EdgeInfo, lookup_time: int, stamp: int, current_time: int | None
+) -> ChainEdge:
+    late = step.state == "too_new" or (step.state == "only_other" and lookup_time > info.newest)
     moving = bool(info.samples) and not info.static
-    reference = stamp or present
+    reference = stamp or current_time
     period = buffered_period(buffer, info.parent, info.child, info.oldest, info.newest, info.samples) if moving else 0.0
-    stale = None if present is None else moving and is_stale(present - info.newest, period)
+    stale = None if current_time is None else moving and is_stale(current_time - info.newest, period)
     return ChainEdge(
         parent=step.parent,
         child=step.child,
         static=info.static,
         state=step.state,
-        by=0 if step.state in {"ok", "no_data"} else when - (info.newest if late else info.oldest),
+        by=0 if step.state in {"ok", "no_data"} else lookup_time - (info.newest if late else info.oldest),
         oldest=info.oldest,
         newest=info.newest,
         age=reference - info.newest if moving and reference is not None else None,
@@ -167,10 +169,10 @@ def _edge(buffer: Buffer, step: _Step, info: EdgeInfo, when: int, stamp: int, pr
     )
 
 
-def _limit(edges: tuple[ChainEdge, ...], when: int) -> tuple[str, str] | None:
-    if when == 0:
+def _limit(edges: tuple[ChainEdge, ...], lookup_time: int) -> tuple[str, str] | None:
+    if lookup_time == 0:
         return None
-    return next(((edge.parent, edge.child) for edge in edges if not edge.static and edge.newest == when), None)
+    return next(((edge.parent, edge.child) for edge in edges if not edge.static and edge.newest == lookup_time), None)
 
 
 def _span(edges: tuple[ChainEdge, ...]) -> tuple[int, int] | None:

@@ -27,57 +27,59 @@ class _Row(NamedTuple):
     remark: str
 
 
-def draw(found: Explanation) -> Iterator[str]:
+def draw(explanation: Explanation) -> Iterator[str]:
     """Yield the verdict, the chain, what to do, and the message of tf2."""
-    yield verdict_text(found)
-    yield from _table(found)
-    yield from _advice(found)
+    yield verdict_text(explanation)
+    yield from _table(explanation)
+    yield from _advice(explanation)
 
 
-def draw_html(found: Explanation) -> str:
+def draw_html(explanation: Explanation) -> str:
     """Return the explanation as an HTML table for notebooks."""
-    rows = [(*row.cells, row.remark) for row in _rows(found)] if found.edges else []
+    rows = [(*row.cells, row.remark) for row in _rows(explanation)] if explanation.edges else []
     titles = (*(title.strip() for title in _TITLES), "")
     return html_tables.section(
-        verdict_text(found),
+        verdict_text(explanation),
         html_tables.table(titles, rows, len(rows), "frame"),
-        *(html_tables.paragraph(line) for line in _advice(found)),
+        *(html_tables.paragraph(line) for line in _advice(explanation)),
     )
 
 
-def _advice(found: Explanation) -> Iterator[str]:
-    if found.possible_at is not None:
-        other = f"at {seconds(found.possible_at)}" if found.possible_at else "at the latest time"
+def _advice(explanation: Explanation) -> Iterator[str]:
+    if explanation.possible_at is not None:
+        other = f"at {seconds(explanation.possible_at)}" if explanation.possible_at else "at the latest time"
         yield f"the tree has changed: there is a transform {other}"
-    if found.hint:
-        yield f"do:  {one_line(found.hint)}"
-    if found.text:
-        yield f"tf2: {one_line(found.text.split(_LOOP_LINES)[0])}"
+    if explanation.hint:
+        yield f"do:  {one_line(explanation.hint)}"
+    if explanation.text:
+        yield f"tf2: {one_line(explanation.text.split(_LOOP_LINES)[0])}"
 
 
-def verdict_text(found: Explanation) -> str:
+def verdict_text(explanation: Explanation) -> str:
     """Return a sentence that states whether the transform exists and, if not, which edge prevents it."""
-    frames = f"from {display_name(found.source)} to {display_name(found.target)}"
-    if found.answered is None:
-        when = f" at {seconds(found.stamp)}" if found.stamp else ""
-        return f"no: there is no transform {frames}{when}: {_reason(found)}"
-    if found.stamp:
-        return f"yes: there is a transform {frames} at {seconds(found.stamp)}"
-    if not found.answered:
+    frames = f"from {display_name(explanation.source)} to {display_name(explanation.target)}"
+    if explanation.answered is None:
+        when = f" at {seconds(explanation.stamp)}" if explanation.stamp else ""
+        return f"no: there is no transform {frames}{when}: {_reason(explanation)}"
+    if explanation.stamp:
+        return f"yes: there is a transform {frames} at {seconds(explanation.stamp)}"
+    if not explanation.answered:
         return f"yes: there is a transform {frames} at any time"
-    age = f", {duration(found.now - found.answered)} old" if found.now is not None else ""
+    age = f", {duration(explanation.now - explanation.answered)} old" if explanation.now is not None else ""
     limit = (
-        f", limited by {' -> '.join(map(display_name, found.limit))}" if found.limit and len(found.edges) > 1 else ""
+        f", limited by {' -> '.join(map(display_name, explanation.limit))}"
+        if explanation.limit and len(explanation.edges) > 1
+        else ""
     )
-    return f"yes: there is a transform {frames}, the latest at {seconds(found.answered)}{age}{limit}"
+    return f"yes: there is a transform {frames}, the latest at {seconds(explanation.answered)}{age}{limit}"
 
 
-def edge_remark(found: Explanation, edge: ChainEdge) -> str:
+def edge_remark(explanation: Explanation, edge: ChainEdge) -> str:
     """Return what is wrong or unusual about an edge, and by how much, or "" if nothing is."""
-    return _anomaly_text(found, edge) if edge.state == "ok" else _fault_text(found, edge)
+    return _anomaly_text(explanation, edge) if edge.state == "ok" else _fault_text(explanation, edge)
 
 
-def _fault_text(found: Explanation, edge: ChainEdge) -> str:
+def _fault_text(explanation: Explanation, edge: ChainEdge) -> str:
     by = duration(abs(edge.by))
     if edge.state == "too_new":
         due = (
@@ -87,43 +89,45 @@ def _fault_text(found: Explanation, edge: ChainEdge) -> str:
         )
         return f"{by} behind the requested time{due}"
     if edge.state == "too_old":
-        keeps = f"; the buffer keeps {duration(found.cache)}" if found.cache >= 0 else ""
+        keeps = f"; the buffer keeps {duration(explanation.cache)}" if explanation.cache >= 0 else ""
         return f"first available {by} after the requested time{keeps}"
     if edge.state == "only_other":
         return f"available only at one time, {by} {'before' if edge.by > 0 else 'after'} the requested time"
     return "no longer available"
 
 
-def _anomaly_text(found: Explanation, edge: ChainEdge) -> str:
+def _anomaly_text(explanation: Explanation, edge: ChainEdge) -> str:
     if edge.later:
         return f"the parent is now {display_name(edge.later)}"
     if edge.gap > usual_gap(edge.period):
         return f"in a gap of {duration(edge.gap)}"
-    return f"stale: no transform for {duration(edge.age or 0)}" if found.stamp == 0 and edge.stale else ""
+    return f"stale: no transform for {duration(edge.age or 0)}" if explanation.stamp == 0 and edge.stale else ""
 
 
-def _reason(found: Explanation) -> str:
-    if found.code in _REASONS:
-        return _REASONS[found.code]
-    if found.unknown:
-        frames = "frame" if len(found.unknown) == 1 else "frames"
-        return f"no transform with the {frames} {' and '.join(map(_quote, found.unknown))} was received"
+def _reason(explanation: Explanation) -> str:
+    if explanation.code in _REASONS:
+        return _REASONS[explanation.code]
+    if explanation.unknown:
+        frames = "frame" if len(explanation.unknown) == 1 else "frames"
+        return f"no transform with the {frames} {' and '.join(map(_quote, explanation.unknown))} was received"
     reasons = []
-    if found.broken:
-        worst = max(found.broken, key=lambda edge: abs(edge.by))
-        more = len(found.broken) - 1
+    if explanation.broken:
+        worst = max(explanation.broken, key=lambda edge: abs(edge.by))
+        more = len(explanation.broken) - 1
         others = f"; {count(more, 'more edge')} {'has' if more == 1 else 'have'} no data for that time" if more else ""
         reasons.append(
-            f"{display_name(worst.parent or '?')} -> {display_name(worst.child)} is {edge_remark(found, worst)}{others}"
+            f"{display_name(worst.parent or '?')} -> {display_name(worst.child)} is "
+            f"{edge_remark(explanation, worst)}{others}"
         )
-    if found.roots is not None:
+    if explanation.roots is not None:
         reasons.append(
-            f"{_quote(found.roots[0])} and {_quote(found.roots[1])} are roots of two trees that are not connected"
+            f"{_quote(explanation.roots[0])} and {_quote(explanation.roots[1])} are roots of two trees "
+            "that are not connected"
         )
-    if found.missing is not None:
-        edge = f"{display_name(found.missing.parent)} -> {display_name(found.missing.child)}"
+    if explanation.missing is not None:
+        edge = f"{display_name(explanation.missing.parent)} -> {display_name(explanation.missing.child)}"
         named = f"a transform such as {edge} is missing"
-        reasons.append(named if found.missing[:2] == found.roots else found.missing.text)
+        reasons.append(named if explanation.missing[:2] == explanation.roots else explanation.missing.text)
     return "; ".join(reasons)
 
 
@@ -138,11 +142,11 @@ _REASONS = {
 }
 
 
-def _table(found: Explanation) -> list[str]:
+def _table(explanation: Explanation) -> list[str]:
     """Return the chain from the common frame, or from both roots, down to the two frames; one line per frame."""
-    if not found.edges:
+    if not explanation.edges:
         return []
-    rows = [_Row(_TITLES, ""), *_rows(found)]
+    rows = [_Row(_TITLES, ""), *_rows(explanation)]
     widths = [max(len(row.cells[column]) for row in rows) for column in range(len(_TITLES))]
     return [
         "  ".join([*(cell.ljust(width) for cell, width in zip(row.cells, widths, strict=True)), row.remark]).rstrip()
@@ -150,13 +154,15 @@ def _table(found: Explanation) -> list[str]:
     ]
 
 
-def _rows(found: Explanation) -> Iterator[_Row]:
-    edges = {edge.child: edge for edge in found.edges}
-    for indent, frame in _tree(found, edges):
-        role = {found.target: " (target)", found.source: " (source)"}.get(frame, "")
+def _rows(explanation: Explanation) -> Iterator[_Row]:
+    edges = {edge.child: edge for edge in explanation.edges}
+    for indent, frame in _tree(explanation, edges):
+        role = {explanation.target: " (target)", explanation.source: " (source)"}.get(frame, "")
         edge = edges.get(frame)
         cells = ("",) * (len(_TITLES) - 1) if edge is None else _edge_cells(edge)
-        yield _Row((f"  {indent}{display_name(frame)}{role}", *cells), "" if edge is None else edge_remark(found, edge))
+        yield _Row(
+            (f"  {indent}{display_name(frame)}{role}", *cells), "" if edge is None else edge_remark(explanation, edge)
+        )
 
 
 def _edge_cells(edge: ChainEdge) -> tuple[str, ...]:
@@ -168,11 +174,11 @@ def _edge_cells(edge: ChainEdge) -> tuple[str, ...]:
     return seconds(edge.oldest), seconds(edge.newest), age, f"{edge.rate:.3g} Hz", display_name(edge.publisher)
 
 
-def _tree(found: Explanation, edges: dict[str, ChainEdge]) -> Iterator[tuple[str, str]]:
+def _tree(explanation: Explanation, edges: dict[str, ChainEdge]) -> Iterator[tuple[str, str]]:
     """Yield the frames in drawing order, each with the branch lines in front of its name."""
-    frames = found.frames
-    if found.roots is not None:
-        cut = frames.index(found.roots[1])
+    frames = explanation.frames
+    if explanation.roots is not None:
+        cut = frames.index(explanation.roots[1])
         for root, *below in (frames[:cut][::-1], frames[cut:]):
             yield "", root
             yield from _branch_lines(below, last=True)

@@ -36,11 +36,11 @@ def read_hand_eye(document: Place) -> Rig:
     child = parameters["tracking_base_frame"].text()
     if "transform" in document:
         place = document["transform"]
-        translation, turn = place["translation"].fields("x y z"), place["rotation"].fields("x y z w")
+        translation, rotation = place["translation"].fields("x y z"), place["rotation"].fields("x y z w")
     else:
         place = document["transformation"]
-        translation, turn = place.fields("x y z"), place.fields("qx qy qz qw")
-    mount = place.pose(translation, turn).replace(target=parent, source=child)
+        translation, rotation = place.fields("x y z"), place.fields("qx qy qz qw")
+    mount = place.pose(translation, rotation).replace(target=parent, source=child)
     return Rig((mount,), format="easy_handeye2" if "transform" in document else "easy_handeye", convention=CONVENTION)
 
 

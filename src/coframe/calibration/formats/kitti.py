@@ -88,8 +88,8 @@ def _read_raw_cameras(document: Place, mounts: list[Transform], cameras: dict[st
         lens = ("plumb_bob", document[f"D_{number}"].numbers(5))
         cameras[frame] = camera(place, (int(size[0]), int(size[1])), k[[0, 1, 0, 1], [0, 1, 2, 2]], lens, frame, others)
         if int(number):
-            turn, at = document[f"R_{number}"].numbers(9).reshape(3, 3), document[f"T_{number}"]
-            motion = at.rigid(turn, at.numbers(3))
+            rotation, at = document[f"R_{number}"].numbers(9).reshape(3, 3), document[f"T_{number}"]
+            motion = at.rigid(rotation, at.numbers(3))
             mounts.append(motion.inverse().replace(target="cam0", source=frame))
 
 

@@ -256,7 +256,7 @@ def _actions(node: Node) -> list[tuple[str, list[str]]]:
 def _similar_names_hint(node: Node, name: str) -> str:
     """Return similar names of actions in the graph, or how to list all."""
     names = (each for each, _ in _actions(node) if each != name)  # The client of this command has it.
-    return did_you_mean(name, names, most=2) or "coframe action list shows all actions."
+    return did_you_mean(name, names, limit=2) or "coframe action list shows all actions."
 
 
 def _cancel(node: Node, handle: Any) -> None:

@@ -215,7 +215,7 @@ def topic_type(node: Node, topic: str, *, include_hidden: bool = True, wait: boo
     found = wait_until(types)
     if not found:
         unpublished = f"topic [{topic}] does not appear to be published yet"
-        hint = did_you_mean(topic, (name for name, _ in node.get_topic_names_and_types()), most=2)
+        hint = did_you_mean(topic, (name for name, _ in node.get_topic_names_and_types()), limit=2)
         if not wait:
             hint = hint or "coframe topic list shows all topics."
             fail(f"{unpublished}. Could not determine the type for the passed topic", hint)
@@ -270,5 +270,5 @@ def fail_without_node(node: Node, message: str, name: str) -> NoReturn:
     """
     fail(
         message,
-        did_you_mean(name, node_names(node, include_hidden=True), most=2) or "coframe node list shows all nodes.",
+        did_you_mean(name, node_names(node, include_hidden=True), limit=2) or "coframe node list shows all nodes.",
     )

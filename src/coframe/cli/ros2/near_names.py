@@ -31,4 +31,4 @@ def similar_types_hint(name: str) -> str:
         nearest = difflib.get_close_matches(name, same, n=_MAX_NAMES, cutoff=0.0)
         return f"Did you mean {' or '.join(map(repr, nearest))}?"
     # If the package was not found, types of other packages are not suggested.
-    return did_you_mean(name, types, most=2) if found else ""
+    return did_you_mean(name, types, limit=2) if found else ""

@@ -91,7 +91,7 @@ def info(
         print()
 
 
-def _sections(own: Node, node_name: str) -> Iterator[tuple[str, list[tuple[str, list[str]]]]]:
+def _sections(own_node: Node, node_name: str) -> Iterator[tuple[str, list[tuple[str, list[str]]]]]:
     """Yield the titles and rows of `ros2 node info`, in its order."""
     from rclpy.action import (  # noqa: PLC0415 - slow import
         get_action_client_names_and_types_by_node,
@@ -99,9 +99,9 @@ def _sections(own: Node, node_name: str) -> Iterator[tuple[str, list[tuple[str, 
     )
 
     namespace, name = split_node_name(node_name)
-    yield "Subscribers", sorted(own.get_subscriber_names_and_types_by_node(name, namespace))
-    yield "Publishers", sorted(own.get_publisher_names_and_types_by_node(name, namespace))
-    yield "Service Servers", sorted(own.get_service_names_and_types_by_node(name, namespace))
-    yield "Service Clients", sorted(own.get_client_names_and_types_by_node(name, namespace))
-    yield "Action Servers", sorted(get_action_server_names_and_types_by_node(own, name, namespace))
-    yield "Action Clients", sorted(get_action_client_names_and_types_by_node(own, name, namespace))
+    yield "Subscribers", sorted(own_node.get_subscriber_names_and_types_by_node(name, namespace))
+    yield "Publishers", sorted(own_node.get_publisher_names_and_types_by_node(name, namespace))
+    yield "Service Servers", sorted(own_node.get_service_names_and_types_by_node(name, namespace))
+    yield "Service Clients", sorted(own_node.get_client_names_and_types_by_node(name, namespace))
+    yield "Action Servers", sorted(get_action_server_names_and_types_by_node(own_node, name, namespace))
+    yield "Action Clients", sorted(get_action_client_names_and_types_by_node(own_node, name, namespace))

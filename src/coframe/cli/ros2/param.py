@@ -183,7 +183,7 @@ def _get_of_all_nodes(
     found = False
     with graph_node(spin_time) as node:
         for each in node_names(node, include_hidden=include_hidden):
-            client = ParameterClient(node, each, required=False, timeout=timeout)
+            client = ParameterClient(node, each, is_required=False, timeout=timeout)
             line = _value(client, name, hide_type=hide_type) if client.is_available else None
             if line is not None:
                 found = True
@@ -232,7 +232,7 @@ def list_parameters(
         fail(f"--filter: {expression!r} is not a regular expression: {error}", code=2)
     with graph_node(NO_WAIT if node_name else spin_time) as node:
         for each in [node_name] if node_name else node_names(node, include_hidden=include_hidden):
-            client = ParameterClient(node, each, required=node_name is not None, timeout=timeout)
+            client = ParameterClient(node, each, is_required=node_name is not None, timeout=timeout)
             if not client.is_available:
                 continue
             names = sorted(name for name in client.names(prefixes) if pattern.search(name))

@@ -32,18 +32,18 @@ class ParameterClient:
     """
 
     def __init__(
-        self, node: Node, target: str, *, required: bool = True, timeout: PositiveDuration | None = None
+        self, node: Node, target: str, *, is_required: bool = True, timeout: PositiveDuration | None = None
     ) -> None:
         self._node = node
         self._target = target
         self._timeout = timeout
-        if required and not wait_until(lambda: target in node_names(node, include_hidden=True)):
+        if is_required and not wait_until(lambda: target in node_names(node, include_hidden=True)):
             fail_without_node(node, f"Node not found: {target}", target)
-        self.is_available = self._has_services(required=required)
-        if required and not self.is_available:
+        self.is_available = self._has_services(is_required=is_required)
+        if is_required and not self.is_available:
             fail(f"Node {target} has no parameter services.", "It was started without them, or does not respond.")
 
-    def _has_services(self, *, required: bool) -> bool:
+    def _has_services(self, *, is_required: bool) -> bool:
         from rcl_interfaces.srv import ListParameters  # noqa: PLC0415 - slow import
         from rclpy.exceptions import InvalidServiceNameException  # noqa: PLC0415
 
@@ -51,8 +51,8 @@ class ParameterClient:
             probe = self._node.create_client(ListParameters, f"{self._target}/list_parameters")
         except InvalidServiceNameException:  # Other programs can announce nodes with arbitrary names.
             return False
-        found: bool = probe.wait_for_service(ENDPOINT_TIMEOUT if required else _SHORT_TIMEOUT)
-        if required and not found:
+        found: bool = probe.wait_for_service(ENDPOINT_TIMEOUT if is_required else _SHORT_TIMEOUT)
+        if is_required and not found:
             fail_if_incompatible(probe)
         self._node.destroy_client(probe)
         return found

@@ -217,7 +217,7 @@ def _similar_services_hint(node: Node, name: str) -> str:
     """Return similar names of services in the graph, or how to list all."""
     # The client of this command has the same name.
     names = (each for each, _ in _services(node, include_hidden=False) if each != name)
-    return did_you_mean(name, names, most=2) or "coframe service list shows all services."
+    return did_you_mean(name, names, limit=2) or "coframe service list shows all services."
 
 
 def _endpoints(node: Node, query: str, name: str) -> list[Any]:

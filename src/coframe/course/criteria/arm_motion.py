@@ -133,9 +133,9 @@ class JointSamples(NamedTuple):
     first: float
 
     @classmethod
-    def of(cls, received: Sequence[Received], child: str) -> JointSamples:
+    def of(cls, messages: Sequence[Received], child: str) -> JointSamples:
         """Return the samples of a child frame."""
-        found = [(one, each) for one in received for each in one.message.transforms if each.child_frame_id == child]
+        found = [(one, each) for one in messages for each in one.message.transforms if each.child_frame_id == child]
         stamps = np.array([to_seconds(stamp_ns(each)) for _, each in found])
         arrivals = np.array([to_seconds(one.time) for one, _ in found])
         usable = len(stamps) and np.median(np.abs(stamps - arrivals)) <= _MAX_LATE
@@ -173,14 +173,14 @@ class Motion(NamedTuple):
     formula: Formula
 
     @classmethod
-    def of(cls, received: Sequence[Received], period: float) -> Motion:
+    def of(cls, messages: Sequence[Received], period: float) -> Motion:
         """Examine the messages of a program without joint states.
 
         Args:
-            received: The messages.
+            messages: The messages.
             period: The period of the timer in the assignment, in seconds.
         """
-        samples = [JointSamples.of(received, child) for child in CHILDREN]
+        samples = [JointSamples.of(messages, child) for child in CHILDREN]
         found = [_find_trial(joint, each, period) for joint, each in enumerate(samples)]
         right = [trial is not None and not trial.cause for trial in found]
         causes = ["" if trial is None else trial.cause for trial in found]

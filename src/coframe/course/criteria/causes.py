@@ -49,7 +49,7 @@ _UNKNOWN_FRAME = '" passed to lookupTransform'
 _FAILURES = ("Lookup would require", "Could not find a connection")
 
 
-def name_mistake(found: str, wanted: str) -> str:
+def name_mistake(observed: str, expected: str) -> str:
     """Return how a name differs from the wanted one, if it is probably the same name.
 
     Example:
@@ -58,14 +58,14 @@ def name_mistake(found: str, wanted: str) -> str:
         >>> name_mistake("end_efector", "end_effector"), name_mistake("odom", "map")
         ("'end_efector' looks like a misspelling of 'end_effector'", '')
     """
-    if found == wanted:
+    if observed == expected:
         return ""
-    if found.strip("/") == wanted.strip("/"):
-        verb = "begins" if found.startswith("/") else "ends"
-        return f"the name {found!r} {verb} with a slash: use {wanted!r}"
-    if found.strip().lower() == wanted.lower():
-        return f"{found!r} is another name than {wanted!r}: names are compared letter by letter"
-    return f"{found!r} looks like a misspelling of {wanted!r}" if is_misspelling(found, wanted) else ""
+    if observed.strip("/") == expected.strip("/"):
+        verb = "begins" if observed.startswith("/") else "ends"
+        return f"the name {observed!r} {verb} with a slash: use {expected!r}"
+    if observed.strip().lower() == expected.lower():
+        return f"{observed!r} is another name than {expected!r}: names are compared letter by letter"
+    return f"{observed!r} looks like a misspelling of {expected!r}" if is_misspelling(observed, expected) else ""
 
 
 def edge_cause(parent: str, child: str, edges: Iterable[tuple[str, str]], known: Collection[str]) -> str:
@@ -90,20 +90,20 @@ def edge_cause(parent: str, child: str, edges: Iterable[tuple[str, str]], known:
     return ""
 
 
-def quaternion_values(turned: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
+def quaternion_values(quaterniond: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
     """Return the values of a Quaternion message in the order x, y, z, w."""
-    return np.array([turned.x, turned.y, turned.z, turned.w])
+    return np.array([quaterniond.x, quaterniond.y, quaterniond.z, quaterniond.w])
 
 
-def pose_cause(pose: Transform, turned: Any, expected: Transform) -> str:
+def pose_cause(pose: Transform, quaterniond: Any, expected: Transform) -> str:
     """Return the mistake in a published pose, or in the length of its quaternion.
 
     Args:
         pose: The published pose, normalized.
-        turned: The Quaternion message of the published pose.
+        quaterniond: The Quaternion message of the published pose.
         expected: The correct pose.
     """
-    values = quaternion_values(turned)
+    values = quaternion_values(quaterniond)
     length = float(np.linalg.norm(values))
     if length == 0.0:
         return NO_ROTATION_VALUES
@@ -128,7 +128,7 @@ def _row(pose: Transform) -> np.ndarray[Any, np.dtype[np.float64]]:
     return np.concatenate([pose.translation, pose.quaternion])[None]
 
 
-def period_cause(rate: float, wanted: float) -> str:
+def period_cause(rate: float, expected_rate: float) -> str:
     """Return the mistake in the period of a timer, from the measured and the wanted rate in Hz.
 
     Example:
@@ -137,15 +137,15 @@ def period_cause(rate: float, wanted: float) -> str:
         >>> period_cause(5.0, 50.0)
         'the period of the timer is 0.2 s; for 50 Hz it must be 0.02 s'
     """
-    if rate <= 0.0 or abs(rate - wanted) <= 0.1 * wanted:
+    if rate <= 0.0 or abs(rate - expected_rate) <= 0.1 * expected_rate:
         return ""
-    period, right = 1.0 / rate, 1.0 / wanted
+    period, right = 1.0 / rate, 1.0 / expected_rate
     if abs(period - 1000.0 * right) <= _MAX_PERIOD_ERROR * period:
         units = f"create_timer takes seconds, so {right:g} instead of {1000.0 * right:g}"
         return f"the period of the timer is {period:.3g} s: {units}"
-    if abs(period - wanted) <= _MAX_PERIOD_ERROR * period:
-        return f"the period of the timer is {period:.3g} s: the rate {wanted:g} is used as the period {right:g}"
-    return f"the period of the timer is {period:.3g} s; for {wanted:g} Hz it must be {right:g} s"
+    if abs(period - expected_rate) <= _MAX_PERIOD_ERROR * period:
+        return f"the period of the timer is {period:.3g} s: the rate {expected_rate:g} is used as the period {right:g}"
+    return f"the period of the timer is {period:.3g} s; for {expected_rate:g} Hz it must be {right:g} s"
 
 
 def log_cause(output: str) -> str:

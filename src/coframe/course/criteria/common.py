@@ -188,24 +188,24 @@ def to_seconds(nanoseconds: int) -> float:
     return nanoseconds / SECOND
 
 
-def transforms_on_tf(received: list[Received], stored: list[Received]) -> list[Received]:
+def transforms_on_tf(messages: list[Received], latched_messages: list[Received]) -> list[Received]:
     """Return the messages of a program on /tf, given those of a volatile and of a transient local subscription.
 
     A graded program also stores messages of /tf, so that those before its discovery are not lost. The publishers of
     other programs offer only volatile messages.
     """
-    return stored or received
+    return latched_messages or messages
 
 
-def norm_of(turned: Any) -> float:
+def norm_of(quaterniond: Any) -> float:
     """Return the length of a Quaternion message."""
-    return float(np.linalg.norm([turned.x, turned.y, turned.z, turned.w]))
+    return float(np.linalg.norm([quaterniond.x, quaterniond.y, quaterniond.z, quaterniond.w]))
 
 
 def read_edge(message: Any) -> Transform:
     """Return a TransformStamped message as a transform without normalizing its quaternion."""
-    moved, turned = message.transform.translation, message.transform.rotation
-    values = np.array([turned.x, turned.y, turned.z, turned.w])
+    moved, rotated = message.transform.translation, message.transform.rotation
+    values = np.array([rotated.x, rotated.y, rotated.z, rotated.w])
     norm = float(np.linalg.norm(values))
     return Transform(
         [moved.x, moved.y, moved.z],
@@ -217,8 +217,8 @@ def read_edge(message: Any) -> Transform:
 
 def read_pose(message: Any) -> Transform:
     """Return the pose of a PoseStamped message as a transform."""
-    position, turned = message.pose.position, message.pose.orientation
-    values = np.array([turned.x, turned.y, turned.z, turned.w])
+    position, rotated = message.pose.position, message.pose.orientation
+    values = np.array([rotated.x, rotated.y, rotated.z, rotated.w])
     norm = float(np.linalg.norm(values))
     return Transform(
         [position.x, position.y, position.z],
@@ -234,18 +234,18 @@ def difference_text(pose: Transform, correct: Transform, tolerance: float = TOLE
     offset = float(np.abs(pose.translation - correct.translation).max())
     if not offset <= tolerance:
         return f"position {_numbers(pose.translation)} m instead of {_numbers(correct.translation)} m"
-    turned = 1.0 - abs(float(pose.quaternion @ correct.quaternion))
-    if not turned <= tolerance**2 + 1e-13:
+    rotated = 1.0 - abs(float(pose.quaternion @ correct.quaternion))
+    if not rotated <= tolerance**2 + 1e-13:
         return f"rotation {_numbers(pose.quaternion)} (x, y, z, w) instead of {_numbers(correct.quaternion)}"
     return ""
 
 
-def mean_rate(received: list[Received]) -> float:
+def mean_rate(messages: list[Received]) -> float:
     """Return the mean rate of messages in Hz, or 0 if there are fewer than two.
 
     Messages that arrive at the same time, such as one for each edge, count once.
     """
-    times = sorted({each.time for each in received})
+    times = sorted({each.time for each in messages})
     if len(times) < 2:
         return 0.0
     return (len(times) - 1) / to_seconds(times[-1] - times[0])

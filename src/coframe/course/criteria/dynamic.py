@@ -132,18 +132,18 @@ def _publish_joint_states(world: World, now: int, joints: tuple[str, ...]) -> No
         world.publish(_TOPIC, state)
 
 
-def _samples(received: list[Received], child: str) -> list[Any]:
-    return [each for one in received for each in one.message.transforms if each.child_frame_id == child]
+def _samples(messages: list[Received], child: str) -> list[Any]:
+    return [each for one in messages for each in one.message.transforms if each.child_frame_id == child]
 
 
-def _check_edges(sheet: Sheet, published: _Published) -> None:
-    sent = [each for one in published.simulated for each in one.message.transforms]
+def _check_edges(sheet: Sheet, published_messages: _Published) -> None:
+    sent = [each for one in published_messages.simulated for each in one.message.transforms]
     edges = [(each.header.frame_id, each.child_frame_id) for each in sent]
     others = [f"{parent} -> {child}" for parent, child in dict.fromkeys(edges) if child not in _FRAMES]
     for parent, child in _EDGES:
         parents = {each.header.frame_id for each in sent if each.child_frame_id == child}
-        is_dynamic = published.topic == "/tf"
-        where = "" if is_dynamic else f" on {published.topic}"
+        is_dynamic = published_messages.topic == "/tf"
+        where = "" if is_dynamic else f" on {published_messages.topic}"
         missing = f"no transform to {child}" + (f"; received: {', '.join(others[:3])}" if others else "")
         sheet.check(
             1,
@@ -156,14 +156,14 @@ def _check_edges(sheet: Sheet, published: _Published) -> None:
         )
 
 
-def _check_dimensions(sheet: Sheet, task: Task, received: list[Received]) -> None:
+def _check_dimensions(sheet: Sheet, task: Task, messages: list[Received]) -> None:
     first, second = task.assignment.link_lengths
     rows = (
         (1, "link1", "the height of the first joint", (0.0, 0.0, task.assignment.base_height)),
         (2, "link2", "the length of the first link", (first, 0.0, 0.0)),
         (2, "end_effector", "the length of the second link", (second, 0.0, 0.0)),
     )
-    seen = {child: _offsets(received, child) for _, child, _, _ in rows}
+    seen = {child: _offsets(messages, child) for _, child, _, _ in rows}
     for points, child, name, correct in rows:
         offsets = seen[child]
         sheet.check(
@@ -179,8 +179,8 @@ def _check_dimensions(sheet: Sheet, task: Task, received: list[Received]) -> Non
         )
 
 
-def _offsets(received: list[Received], child: str) -> np.ndarray[Any, np.dtype[np.float64]]:
-    moved = [each.transform.translation for each in _samples(received, child)]
+def _offsets(messages: list[Received], child: str) -> np.ndarray[Any, np.dtype[np.float64]]:
+    moved = [each.transform.translation for each in _samples(messages, child)]
     return np.array([[each.x, each.y, each.z] for each in moved]).reshape(-1, 3)
 
 
@@ -205,7 +205,7 @@ def _dimension_cause(offsets: Any, correct: tuple[float, ...], first: float, sec
     return ""
 
 
-def _check_motion(sheet: Sheet, received: list[Received], motion: Motion) -> None:
+def _check_motion(sheet: Sheet, messages: list[Received], motion: Motion) -> None:
     """Check the joint angles at their stamps."""
     for joint, child in enumerate(CHILDREN):
         law = ("0.5 sin(2 pi 0.2 t)", "0.3 sin(2 pi 0.3 t + pi / 4)")[joint]
@@ -214,7 +214,7 @@ def _check_motion(sheet: Sheet, received: list[Received], motion: Motion) -> Non
             f"joint {joint + 1} follows the specified motion",
             motion.is_right[joint],
             expected=f"a rotation about z by {law}",
-            observed=_motion_observation(_samples(received, child), motion.causes[joint]),
+            observed=_motion_observation(_samples(messages, child), motion.causes[joint]),
             cause=motion.causes[joint],
             read="handbook chapter 2, rotations and quaternions",
         )
@@ -232,8 +232,8 @@ def _motion_observation(samples: list[Any], cause: str) -> str:
     return f"another motion, with angles from {min(angles):.3f} to {max(angles):.3f} rad"
 
 
-def _check_times(sheet: Sheet, task: Task, published: _Published) -> None:
-    wanted, received = task.assignment.dynamic_rate, published.simulated
+def _check_times(sheet: Sheet, task: Task, published_messages: _Published) -> None:
+    wanted, received = task.assignment.dynamic_rate, published_messages.simulated
     arm = [each for each in received if any(edge.child_frame_id == "link1" for edge in each.message.transforms)]
     rate = mean_rate(arm)
     sheet.check(
@@ -246,7 +246,7 @@ def _check_times(sheet: Sheet, task: Task, published: _Published) -> None:
         read=_CHAPTER,
     )
     _check_stamps(sheet, arm)
-    _check_common_stamp(sheet, published)
+    _check_common_stamp(sheet, published_messages)
 
 
 def _check_stamps(sheet: Sheet, arm: list[Received]) -> None:
@@ -269,22 +269,22 @@ def _check_stamps(sheet: Sheet, arm: list[Received]) -> None:
     )
 
 
-def _stamp_cause(stamps: list[int], off: int) -> str:
+def _stamp_cause(stamps: list[int], offset: int) -> str:
     if not stamps:
         return ""
     if not any(stamps):
         return "header.stamp is not set: use self.get_clock().now().to_msg()"
     if len(set(stamps)) == 1 and len(stamps) > 1:
         return "the stamp is read once, and used for all messages: read the clock in each call of the timer"
-    if off > 1_000_000 * SECOND:
+    if offset > 1_000_000 * SECOND:
         return "the stamp is the time of the system: use the clock of the node, self.get_clock().now()"
     return ""
 
 
-def _check_common_stamp(sheet: Sheet, published: _Published) -> None:
+def _check_common_stamp(sheet: Sheet, published_messages: _Published) -> None:
     """Check the stamps with the clock of the system, on which two calls of now() never return the same time."""
-    sets = [{stamp_ns(each) for each in _samples(published.simulated, child)} for _, child in _EDGES]
-    real = [{stamp_ns(each) for each in _samples(published.real, child)} for _, child in _EDGES]
+    sets = [{stamp_ns(each) for each in _samples(published_messages.simulated, child)} for _, child in _EDGES]
+    real = [{stamp_ns(each) for each in _samples(published_messages.real, child)} for _, child in _EDGES]
     in_simulation = bool(sets[0]) and sets[0] == sets[1] == sets[2]
     common = set.intersection(*real) if all(real) else set()
     differ = bool(all(real)) and not common
@@ -301,9 +301,9 @@ def _check_common_stamp(sheet: Sheet, published: _Published) -> None:
     )
 
 
-def _check_joint_states(sheet: Sheet, published: _Published, motion: Motion) -> None:
+def _check_joint_states(sheet: Sheet, published_messages: _Published, motion: Motion) -> None:
     formula = motion.formula
-    first = _second_half(published.in_order)
+    first = _second_half(published_messages.in_order)
     followed = [_is_followed(each, formula) for each in first]
     sheet.check(
         2,
@@ -311,10 +311,10 @@ def _check_joint_states(sheet: Sheet, published: _Published, motion: Motion) -> 
         any(followed),
         expected="the angles of the last joint state",
         observed="other angles" if followed else "no transform while joint states are published",
-        cause=_following_cause(published, formula, any(followed)),
+        cause=_following_cause(published_messages, formula, any(followed)),
         read=_CHAPTER,
     )
-    swapped = _second_half(published.reversed)
+    swapped = _second_half(published_messages.reversed)
     by_name = [_is_followed(each, formula) for each in swapped]
     sheet.check(
         1,
@@ -324,7 +324,7 @@ def _check_joint_states(sheet: Sheet, published: _Published, motion: Motion) -> 
         observed="other angles" if by_name else "no transform while joint states are published",
         cause="the angles are taken by position: use dict(zip(message.name, message.position))"
         if any(followed) and any(_is_followed(each, formula, exchanged=True) for each in swapped)
-        else _following_cause(published, formula, any(by_name)),
+        else _following_cause(published_messages, formula, any(by_name)),
         read=_CHAPTER,
     )
     sheet.check(
@@ -337,50 +337,50 @@ def _check_joint_states(sheet: Sheet, published: _Published, motion: Motion) -> 
         else "no transform",
         cause="the simulation continues while joint states arrive: two sources of joint angles make the arm flicker"
         if any(followed)
-        else _following_cause(published, formula, any(followed)),
+        else _following_cause(published_messages, formula, any(followed)),
         read="handbook chapter 10, finding errors",
     )
 
 
-def _second_half(received: list[Received]) -> list[Received]:
+def _second_half(messages: list[Received]) -> list[Received]:
     """Return the later messages with the angles of the arm, after the node has had time to react."""
-    arm = [each for each in received if _rotations(each)]
+    arm = [each for each in messages if _rotations(each)]
     return arm[len(arm) // 2 :]
 
 
-def _following_cause(published: _Published, formula: Formula, is_followed: bool) -> str:
+def _following_cause(published_messages: _Published, formula: Formula, is_followed: bool) -> str:
     """Return why the arm does not follow the joint states."""
-    topics = published.subscriptions
-    if is_followed or not published.simulated:
+    topics = published_messages.subscriptions
+    if is_followed or not published_messages.simulated:
         return ""
     if not topics:
         return "there is no subscription to /joint_states"
     if _TOPIC not in topics:
         return name_mistake(topics[0], _TOPIC) or f"the subscription is to {topics[0]}, not to {_TOPIC}"
-    if any(_is_followed(each, formula, exchanged=True) for each in _second_half(published.in_order)):
+    if any(_is_followed(each, formula, exchanged=True) for each in _second_half(published_messages.in_order)):
         return "the angles of the two joints are exchanged"
     return ""
 
 
-def _rotations(received: Received) -> dict[str, np.ndarray[Any, np.dtype[np.float64]]]:
+def _rotations(message: Received) -> dict[str, np.ndarray[Any, np.dtype[np.float64]]]:
     return {
         each.child_frame_id: quaternion_values(each.transform.rotation)
-        for each in received.message.transforms
+        for each in message.message.transforms
         if each.child_frame_id in CHILDREN
     }
 
 
-def _is_followed(received: Received, formula: Formula, *, exchanged: bool = False) -> bool:
+def _is_followed(message: Received, formula: Formula, *, exchanged: bool = False) -> bool:
     """Return whether the angles match a joint state of the last 100 ms.
 
     Args:
-        received: A message of the arm.
+        message: A message of the arm.
         formula: The formula of its quaternions. Its mistake has lost points for the motion already.
         exchanged: Whether each joint has the angle of the other one.
     """
-    found = _rotations(received)
+    found = _rotations(message)
     for age in range(0, _MAX_AGE + 1, STEP):
-        angles = np.array(_published_angles(to_seconds(received.time - age)))
+        angles = np.array(_published_angles(to_seconds(message.time - age)))
         expected = dict(zip(CHILDREN, formula.quaternions(angles[::-1] if exchanged else angles), strict=True))
         cosines = [abs(float(found[child] @ expected[child])) for child in found]
         if all(2.0 * np.sqrt(max(2.0 * (1.0 - cosine), 0.0)) <= ANGLE for cosine in cosines):

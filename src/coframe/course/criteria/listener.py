@@ -127,9 +127,9 @@ def _check_topic(sheet: Sheet, poses: list[Received], topic: str, names: list[st
     )
 
 
-def _check_rate(sheet: Sheet, task: Task, steady: list[Received]) -> None:
+def _check_rate(sheet: Sheet, task: Task, steady_messages: list[Received]) -> None:
     wanted = task.assignment.listener_rate
-    rate = mean_rate(steady)
+    rate = mean_rate(steady_messages)
     sheet.check(
         4,
         f"the poses are sent at {wanted:g} Hz",
@@ -174,11 +174,11 @@ def _frame_cause(frames: list[str]) -> str:
     )
 
 
-def _difference(robot: SimulatedRobot, received: Received) -> str:
-    stamp = stamp_ns(received.message)
+def _difference(robot: SimulatedRobot, message: Received) -> str:
+    stamp = stamp_ns(message.message)
     at_sample = (stamp + _LATENCY) % _PERIOD == 0
     return difference_text(
-        read_pose(received.message), robot.end_effector(stamp), TOLERANCE if at_sample else _INTERPOLATION_TOLERANCE
+        read_pose(message.message), robot.end_effector(stamp), TOLERANCE if at_sample else _INTERPOLATION_TOLERANCE
     )
 
 
@@ -187,10 +187,10 @@ def _is_correct_at_other_time(robot: SimulatedRobot, poses: list[Received]) -> b
     return all(_find_pose_time(robot, each) is not None for each in poses)
 
 
-def _find_pose_time(robot: SimulatedRobot, received: Received) -> int | None:
-    pose = read_pose(received.message)
+def _find_pose_time(robot: SimulatedRobot, message: Received) -> int | None:
+    pose = read_pose(message.message)
     for age in range(0, _MAX_AGE, STEP):
-        moment = received.time - age
+        moment = message.time - age
         if not difference_text(pose, robot.end_effector(moment), TOLERANCE):
             return moment
     return None

@@ -75,9 +75,9 @@ def check(task: Task) -> Sheet:
     return sheet
 
 
-def _names(received: list[Received], frame: str) -> bool:
-    return any(frame in each.message.data for each in received)
+def _names(messages: list[Received], frame: str) -> bool:
+    return any(frame in each.message.data for each in messages)
 
 
-def _quote_messages(received: list[Received]) -> str:
-    return f"{received[-1].message.data[:80]!r}" if received else "no message"
+def _quote_messages(messages: list[Received]) -> str:
+    return f"{messages[-1].message.data[:80]!r}" if messages else "no message"

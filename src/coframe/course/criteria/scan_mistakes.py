@@ -55,10 +55,10 @@ def valid_beams(scan: LaserScan) -> NDArray[np.bool_]:
     return np.isfinite(ranges) & (ranges >= scan.range_min) & (ranges <= scan.range_max)
 
 
-def flat_points(scan: LaserScan, used: NDArray[np.bool_]) -> Array:
+def flat_points(scan: LaserScan, used_beams: NDArray[np.bool_]) -> Array:
     """Return points of a scan in the frame of the lidar, shape (N, 3)."""
     ranges, angles = ranges_and_angles(scan)
-    return _points(ranges[used], angles[used])
+    return _points(ranges[used_beams], angles[used_beams])
 
 
 def _points(ranges: Array, angles: Array) -> Array:
@@ -111,7 +111,7 @@ def _trials(scan: SentScan) -> Iterator[tuple[str, Array]]:
     used = valid_beams(scan.message)
     ranges, angles = ranges_and_angles(scan.message)
     flat = _points(ranges[used], angles[used])
-    turned, moved = scan.pose.rotation, scan.pose.translation
+    rotated, moved = scan.pose.rotation, scan.pose.translation
 
     def placed(points: Array) -> Array:
         return np.asarray(scan.pose @ points)
@@ -130,20 +130,20 @@ def _trials(scan: SentScan) -> Iterator[tuple[str, Array]]:
         "target and source are swapped: lookup_transform('base_link', scan.header.frame_id, ...)",
         np.asarray(scan.pose.inverse() @ flat),
     )
-    yield "R is used instead of its transpose: points @ R.T + t for points in rows", flat @ turned + moved
-    yield "the translation of the transform is not added", flat @ turned.T
+    yield "R is used instead of its transpose: points @ R.T + t for points in rows", flat @ rotated + moved
+    yield "the translation of the transform is not added", flat @ rotated.T
     yield "the rotation of the transform is not applied", flat + moved
     yield "the points are not transformed: they are still in the frame of the scan", flat
-    yield "the points are moved before they are turned: points @ R.T + t", (flat + moved) @ turned.T
+    yield "the points are moved before they are turned: points @ R.T + t", (flat + moved) @ rotated.T
     for cause, changed in _angle_mistakes(scan.message, used, ranges, angles):
         yield cause, placed(changed)
 
 
 def _angle_mistakes(
-    scan: LaserScan, used: NDArray[np.bool_], ranges: Array, angles: Array
+    scan: LaserScan, used_beams: NDArray[np.bool_], ranges: Array, angles: Array
 ) -> Iterator[tuple[str, Array]]:
     """Yield each common mistake in the angles with the points in the frame of the lidar."""
-    kept, right = ranges[used], angles[used]
+    kept, right = ranges[used_beams], angles[used_beams]
     yield "the angles are not filtered with the ranges: use the same beams of both", _points(kept, angles[: len(kept)])
     yield "the angles do not begin at angle_min", _points(kept, right - scan.angle_min)
     x, y, zero = kept * np.cos(np.degrees(right)), kept * np.sin(np.degrees(right)), np.zeros(len(kept))

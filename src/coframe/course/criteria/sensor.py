@@ -119,12 +119,12 @@ class _Scans:
         slow = self._slow if self.fair() >= _MIN_FAIR_SCANS else set()
         return len(self.sent.keys() - (slow - answered))
 
-    def find(self, received: Received) -> SentScan | None:
+    def find(self, message: Received) -> SentScan | None:
         """Return the scan of a cloud: the one with its stamp, or the last one before its arrival."""
-        stamp = stamp_ns(received.message)
+        stamp = stamp_ns(message.message)
         if stamp in self.sent:
             return self.sent[stamp]
-        before = [moment for moment in self.sent if moment <= received.time]
+        before = [moment for moment in self.sent if moment <= message.time]
         return self.sent[max(before)] if before else None
 
 
@@ -312,9 +312,9 @@ def _check_points(sheet: Sheet, scans: _Scans, clouds: list[Received]) -> None:
         )
 
 
-def _points(received: Received) -> NDArray[np.float64]:
+def _points(message: Received) -> NDArray[np.float64]:
     try:
-        fields = [np.ravel(field_of(received.message, name)) for name in "xyz"]
+        fields = [np.ravel(field_of(message.message, name)) for name in "xyz"]
         return np.column_stack(fields).astype(np.float64)
     except (CoframeError, ValueError, TypeError):
         return np.empty((0, 3))

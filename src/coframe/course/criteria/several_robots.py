@@ -67,8 +67,8 @@ def check(task: Task) -> Sheet:
     return sheet
 
 
-def _edges(received: list[Received]) -> list[Any]:
-    return [edge for each in received for edge in each.message.transforms]
+def _edges(messages: list[Received]) -> list[Any]:
+    return [edge for each in messages for edge in each.message.transforms]
 
 
 def _have_different_poses(edges: list[Any]) -> bool:

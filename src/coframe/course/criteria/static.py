@@ -46,8 +46,10 @@ class _Sent:
         messages: The frames of each message on /tf_static.
     """
 
-    def __init__(self, static: list[Received], dynamic: list[Received], late: list[Received]) -> None:
-        self.static, self.dynamic, self.late = (_group_by_child(each) for each in (static, dynamic, late))
+    def __init__(self, static: list[Received], dynamic_messages: list[Received], late_messages: list[Received]) -> None:
+        self.static, self.dynamic, self.late = (
+            _group_by_child(each) for each in (static, dynamic_messages, late_messages)
+        )
         self.messages = [{each.child_frame_id for each in one.message.transforms} for one in static]
 
     def last(self, frame: str) -> Any:
@@ -83,19 +85,21 @@ def check(task: Task) -> Sheet:
     return sheet
 
 
-def _group_by_child(received: list[Received]) -> dict[str, list[Any]]:
+def _group_by_child(messages: list[Received]) -> dict[str, list[Any]]:
     found: dict[str, list[Any]] = {}
-    for each in received:
+    for each in messages:
         for message in each.message.transforms:
             found.setdefault(message.child_frame_id, []).append(message)
     return found
 
 
-def _check_mount(sheet: Sheet, task: Task, mount: Mount, sent: _Sent) -> None:
+def _check_mount(sheet: Sheet, task: Task, mount: Mount, sent_transforms: _Sent) -> None:
     known = {"base_link", "end_effector", *(each.frame for each in task.assignment.mounts)}
-    message = sent.last(mount.frame)
-    cause = edge_cause(mount.parent, mount.frame, sent.edges(), known)
-    others = ", ".join(f"{parent} -> {child}" for parent, child in dict.fromkeys(sent.edges()) if child not in known)
+    message = sent_transforms.last(mount.frame)
+    cause = edge_cause(mount.parent, mount.frame, sent_transforms.edges(), known)
+    others = ", ".join(
+        f"{parent} -> {child}" for parent, child in dict.fromkeys(sent_transforms.edges()) if child not in known
+    )
     sheet.check(
         1,
         f"{mount.frame} has the parent {mount.parent}",
@@ -129,12 +133,12 @@ def _round_values(values: tuple[float, ...] | list[float]) -> list[float]:
     return [round(value, 7) for value in values]
 
 
-def _check_delivery(sheet: Sheet, task: Task, sent: _Sent) -> None:
+def _check_delivery(sheet: Sheet, task: Task, sent_transforms: _Sent) -> None:
     wanted = [mount.frame for mount in task.assignment.mounts]
     # Only frames that were sent: a wrong name has lost its points already.
-    frames = [frame for frame in wanted if sent.last(frame) is not None] or wanted
-    on_static = [frame for frame in frames if frame in sent.static and frame not in sent.dynamic]
-    on_tf = [frame for frame in frames if frame in sent.dynamic]
+    frames = [frame for frame in wanted if sent_transforms.last(frame) is not None] or wanted
+    on_static = [frame for frame in frames if frame in sent_transforms.static and frame not in sent_transforms.dynamic]
+    on_tf = [frame for frame in frames if frame in sent_transforms.dynamic]
     wrong_topic = _WRONG_BROADCASTER if on_tf else ""
     sheet.check(
         2,
@@ -159,7 +163,7 @@ def _check_delivery(sheet: Sheet, task: Task, sent: _Sent) -> None:
         cause=_OWN_PUBLISHER if offers else wrong_topic,
         read=_READ,
     )
-    reached = [frame for frame in frames if frame in sent.late]
+    reached = [frame for frame in frames if frame in sent_transforms.late]
     is_durable = bool(durable) and all(durable)
     sheet.check(
         2,
@@ -170,21 +174,28 @@ def _check_delivery(sheet: Sheet, task: Task, sent: _Sent) -> None:
         cause=_OWN_PUBLISHER if offers and not is_durable else wrong_topic,
         read=_READ,
     )
-    in_one_call = any(set(frames) <= message for message in sent.messages) or (not sent.static and bool(on_tf))
-    largest = max(map(len, sent.messages), default=0)
+    in_one_call = any(set(frames) <= message for message in sent_transforms.messages) or (
+        not sent_transforms.static and bool(on_tf)
+    )
+    largest = max(map(len, sent_transforms.messages), default=0)
     sheet.check(
         1,
         "the transforms are sent in one call",
         in_one_call,
         expected="one sendTransform call with a list of all transforms",
-        observed=f"{len(sent.messages)} calls with at most {largest} transforms" if sent.messages else "no call",
+        observed=f"{len(sent_transforms.messages)} calls with at most {largest} transforms"
+        if sent_transforms.messages
+        else "no call",
         cause="sendTransform is called for each transform: late listeners of ROS 2 Humble receive only the last call. "
         "Send one list"
-        if len(sent.messages) > 1
+        if len(sent_transforms.messages) > 1
         else "",
         read=_READ,
     )
-    most = max((len(sent.static.get(frame) or sent.dynamic.get(frame) or []) for frame in frames), default=0)
+    most = max(
+        (len(sent_transforms.static.get(frame) or sent_transforms.dynamic.get(frame) or []) for frame in frames),
+        default=0,
+    )
     sheet.check(
         1,
         "the transforms are sent once",

@@ -150,8 +150,8 @@ def _check_configuration(sheet: Sheet, config: RvizConfig | str) -> None:
         sheet.withdraw(0, "The RViz configuration does not show the robot yet. Its first lines describe the task.")
 
 
-def _check_tree(sheet: Sheet, task: Task, received: list[Received]) -> None:
-    edges = [edge for each in received for edge in each.message.transforms]
+def _check_tree(sheet: Sheet, task: Task, messages: list[Received]) -> None:
+    edges = [edge for each in messages for edge in each.message.transforms]
     pairs = list(dict.fromkeys((edge.header.frame_id, edge.child_frame_id) for edge in edges))
     wanted = [(parent, child) for child, parent in _TREE.items()]
     missing = [f"{parent} -> {child}" for parent, child in wanted if (parent, child) not in pairs]
@@ -186,8 +186,8 @@ def _check_tree(sheet: Sheet, task: Task, received: list[Received]) -> None:
     )
     _check_constant(sheet, task, edges)
     for child, name in (("odom", "map -> odom"), ("base_link", "odom -> base_link")):
-        _check_path(sheet, received, child, name)
-    _check_arm(sheet, task, received)
+        _check_path(sheet, messages, child, name)
+    _check_arm(sheet, task, messages)
 
 
 def _check_constant(sheet: Sheet, task: Task, edges: list[Any]) -> None:
@@ -218,9 +218,9 @@ def _check_constant(sheet: Sheet, task: Task, edges: list[Any]) -> None:
     )
 
 
-def _check_path(sheet: Sheet, received: list[Received], child: str, name: str) -> None:
+def _check_path(sheet: Sheet, messages: list[Received], child: str, name: str) -> None:
     """Check the motion of the base or of the localization, which begins when the node starts."""
-    samples = [(one, each) for one in received for each in one.message.transforms if each.child_frame_id == child]
+    samples = [(one, each) for one in messages for each in one.message.transforms if each.child_frame_id == child]
     samples = [(one, each) for one, each in samples if each.header.frame_id == _TREE[child]][2:]
     law = _PATHS[child]
     times = [_elapsed(each, child) for _, each in samples]
@@ -268,8 +268,8 @@ def _elapsed(edge: Any, child: str) -> float:
     return float(edge.transform.translation.x) / _PATHS[child].speed
 
 
-def _check_arm(sheet: Sheet, task: Task, received: list[Received]) -> None:
-    motion = Motion.of(received, 1.0 / task.assignment.dynamic_rate)
+def _check_arm(sheet: Sheet, task: Task, messages: list[Received]) -> None:
+    motion = Motion.of(messages, 1.0 / task.assignment.dynamic_rate)
     wrong = [f"joint {joint + 1}" for joint, is_right in enumerate(motion.is_right) if not is_right]
     sheet.check(
         1,

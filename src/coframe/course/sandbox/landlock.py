@@ -45,24 +45,26 @@ def scopes_signals() -> bool:
     return landlock_version() >= _FIRST_WITH_SCOPES
 
 
-def restrict_files(readable: Iterable[str], hidden: Iterable[str], home: str, *, shown: Iterable[str] = ()) -> None:
+def restrict_files(
+    readable: Iterable[str], hidden_paths: Iterable[str], home: str, *, visible_paths: Iterable[str] = ()
+) -> None:
     """Restrict this process and its children so that they can write only in the home folder.
 
     Args:
         readable: Folders and files that can be read and executed.
-        hidden: Paths below these folders that cannot be read; only their names can be listed.
+        hidden_paths: Paths below these folders that cannot be read; only their names can be listed.
         home: The home folder.
-        shown: The hidden folders that are replaced by something else.
+        visible_paths: The hidden folders that are replaced by something else.
     """
     version = landlock_version()
     rights = _RIGHTS[max(first for first in _RIGHTS if first <= version)]
     content = struct.pack("QQQ", rights, 0, _SCOPES if version >= _FIRST_WITH_SCOPES else 0)
     ruleset = system_call(_CREATE_RULESET, content, len(content), 0)
-    hidden = frozenset(hidden)
-    above_hidden = {folder for path in hidden for folder in _folders_above(path)}
+    hidden_paths = frozenset(hidden_paths)
+    above_hidden = {folder for path in hidden_paths for folder in _folders_above(path)}
     for path in readable:
-        _allow_reading(ruleset, path, hidden, above_hidden)
-    for path in shown:
+        _allow_reading(ruleset, path, hidden_paths, above_hidden)
+    for path in visible_paths:
         _allow(ruleset, path, _READ_FILE | _LIST_FOLDER)
     _allow(ruleset, home, rights)
     _allow(ruleset, os.devnull, _READ_FILE | _WRITE_FILE)
@@ -76,12 +78,12 @@ def _folders_above(path: str) -> Iterable[str]:
         path = above
 
 
-def _allow_reading(ruleset: int, path: str, hidden: frozenset[str], above_hidden: set[str]) -> None:
+def _allow_reading(ruleset: int, path: str, hidden_paths: frozenset[str], above_hidden: set[str]) -> None:
     """Allow reading a file, or everything below a folder except hidden paths.
 
     Landlock has no deny rules, so a folder above hidden files is replaced by its entries.
     """
-    if path in hidden:
+    if path in hidden_paths:
         return
     if path not in above_hidden:
         is_folder = os.path.isdir(path)  # noqa: PTH112 - without other imports
@@ -91,7 +93,7 @@ def _allow_reading(ruleset: int, path: str, hidden: frozenset[str], above_hidden
     with suppress(OSError), os.scandir(path) as entries:
         for entry in entries:
             if not entry.is_symlink():  # Its target has its own rules.
-                _allow_reading(ruleset, entry.path, hidden, above_hidden)
+                _allow_reading(ruleset, entry.path, hidden_paths, above_hidden)
 
 
 def _allow(ruleset: int, path: str, rights: int) -> None:

@@ -84,7 +84,7 @@ def _run(plan: dict[str, Any], program: list[str], *, visible: list[int]) -> NoR
         shown = plan["decoys"] if plan["namespaces"] else ()
         hidden = {path for path, is_readable in plan["entries"] if not is_readable}
         readable = [path for path, is_readable in plan["entries"] if is_readable]
-        landlock.restrict_files([*readable, *mounts.DEVICES, "/proc"], hidden, plan["home"], shown=shown)
+        landlock.restrict_files([*readable, *mounts.DEVICES, "/proc"], hidden, plan["home"], visible_paths=shown)
     if seccomp.can_filter():
         seccomp.block_system_calls(visible)
     os.execv(program[0], program)  # noqa: S606 - the purpose of this file

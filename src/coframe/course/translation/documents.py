@@ -76,17 +76,17 @@ def _continues(unit: str, line: str) -> bool:
 def translate_program(text: str, translate: Callable[[str], str]) -> str:
     """Return a program or a configuration with its docstrings and comments translated, and wrapped."""
 
-    def replaced(found: re.Match[str]) -> str:
-        if found["docstring"] is not None:
-            content = found["docstring"]
-            column = found.start() - text.rfind("\n", 0, found.start()) - 1
+    def replaced(match: re.Match[str]) -> str:
+        if match["docstring"] is not None:
+            content = match["docstring"]
+            column = match.start() - text.rfind("\n", 0, match.start()) - 1
             lines = _paragraphs(content, translate)
             return f'"""{_wrapped(lines, first=column + 3)}"""'
-        if found["xml"] is not None:
-            content = " ".join(found["xml"].split())
+        if match["xml"] is not None:
+            content = " ".join(match["xml"].split())
             return textwrap.fill(f"<!-- {translate(content)} -->", _WIDTH, subsequent_indent=" " * 5)
-        start = f"{found['indent']}# "
-        content = " ".join(line.strip().removeprefix("# ") for line in found["lines"].split("\n"))
+        start = f"{match['indent']}# "
+        content = " ".join(line.strip().removeprefix("# ") for line in match["lines"].split("\n"))
         return textwrap.fill(translate(content), _WIDTH, initial_indent=start, subsequent_indent=start)
 
     return _COMMENT.sub(replaced, text)

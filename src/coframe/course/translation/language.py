@@ -154,12 +154,12 @@ def _pattern(message: str) -> re.Pattern[str]:
     )
 
 
-def choose_language(code: str | None = None, recorded: str = "") -> Language:
+def choose_language(code: str | None = None, recorded_code: str = "") -> Language:
     """Return the language with a code, or that of COFRAME_LANGUAGE, of a folder, or of the locale, else English.
 
     Args:
         code: The code that the user gives, such as "de".
-        recorded: The code in a student's folder; it has no effect if there is no such language.
+        recorded_code: The code in a student's folder; it has no effect if there is no such language.
 
     Raises:
         CourseError: There is no language with the code, or that of COFRAME_LANGUAGE.
@@ -170,7 +170,7 @@ def choose_language(code: str | None = None, recorded: str = "") -> Language:
         if _short(asked) not in known:
             raise CourseError(f"The course has no language {asked!r}.", hint=f"Languages: {', '.join(known)}.")
         return Language(_short(asked))
-    return next((Language(each) for each in (_short(recorded), _short(locale)) if each in known), ENGLISH)
+    return next((Language(each) for each in (_short(recorded_code), _short(locale)) if each in known), ENGLISH)
 
 
 def _short(locale: str) -> str:

@@ -48,7 +48,7 @@ def find(observation: Observation) -> Iterator[Finding]:
 
 
 def _make_finding(
-    observation: Observation, usual: str, usual_names: list[str], clock: str, names: list[str]
+    observation: Observation, usual_clock: str, usual_names: list[str], clock: str, names: list[str]
 ) -> Finding:
     edges = [edge for edge in observation.dynamic if edge.name in names]
     sensors = [sensor for sensor in observation.sensors if sensor.topic in names]
@@ -56,11 +56,12 @@ def _make_finding(
     stamps = [edge.first_stamp for edge in edges] + [int(sensor.stamp[0]) for sensor in sensors]
     first = edges[0] if edges else None
     should_be_simulated = clock == "wall" and observation.clock is not None
-    repairs, choices = _repair(observation, usual, clock, [*edges, *sensors])
+    repairs, choices = _repair(observation, usual_clock, clock, [*edges, *sensors])
     return Finding(
         code=CODE,
         severity=Severity.ERROR,
-        text=f"two clocks: the stamps of {_offsets(observation, names)} {_clock_name(usual)} ({seconds(stamps[0])}"
+        text=f"two clocks: the stamps of {_offsets(observation, names)} {_clock_name(usual_clock)} "
+        f"({seconds(stamps[0])}"
         f"{_KINDS.get(clock, '')}), the clock of {join_names(usual_names)}",
         fix="Use one clock for all nodes. "
         + (
@@ -82,21 +83,21 @@ def _make_finding(
 
 
 def _repair(
-    observation: Observation, usual: str, clock: str, wrong: list[Edge | Sensor]
+    observation: Observation, usual_clock: str, clock: str, wrong_items: list[Edge | Sensor]
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Return the rules that repair the stamps: with /clock, or by a number of hours; else shifts to choose from."""
-    if observation.clock is not None and {usual, clock} == {"wall", "simulated"}:
-        return (f"clock {'sim' if usual == 'simulated' else 'wall'}",), ()
-    named = [(one, one.topic if isinstance(one, Sensor) else one.name) for one in wrong]
+    if observation.clock is not None and {usual_clock, clock} == {"wall", "simulated"}:
+        return (f"clock {'sim' if usual_clock == 'simulated' else 'wall'}",), ()
+    named = [(one, one.topic if isinstance(one, Sensor) else one.name) for one in wrong_items]
     offsets = [(one, observation.offset(name).offset) for one, name in named]
     rules = tuple(shift(one.topic if isinstance(one, Sensor) else one.key, offset) for one, offset in offsets)
     return (rules, ()) if all(_is_whole_hours(offset) for _, offset in offsets) else ((), rules)
 
 
-def _find_static_offsets(observation: Observation, usual: str) -> Iterator[Finding]:
+def _find_static_offsets(observation: Observation, usual_clock: str) -> Iterator[Finding]:
     """Yield a note for static transforms: tf2 ignores their stamps, but their publishers use another clock."""
-    moving = [edge for edge in observation.dynamic if observation.clocks.get(edge.name) == usual]
-    if not moving or usual == "wall":
+    moving = [edge for edge in observation.dynamic if observation.clocks.get(edge.name) == usual_clock]
+    if not moving or usual_clock == "wall":
         return
     low = min(int(edge.stamp.min()) for edge in moving)
     high = max(int(edge.stamp.max()) for edge in moving)

@@ -178,28 +178,28 @@ def _other_mounts(observation: Observation, robot: Robot) -> Iterator[Finding]:
             yield _mount(edge, "the fixed joints between these links", expected, found)
 
 
-def _mount(edge: Edge, joint: str, expected: Transform, found: _Difference) -> Finding:
+def _mount(edge: Edge, joint: str, expected: Transform, difference: _Difference) -> Finding:
     pose = [*expected.translation.tolist(), *expected.quaternion.tolist()]
     published = Transform(edge.values[-1, :3], edge.rotations[-1])
     return Finding(
         code=CODE,
         severity=Severity.WARNING,
-        text=f"differs from {joint} of the robot description by {found.text}: published {_pose_text(published)}, "
-        f"described {_pose_text(expected)}{_agreement_text(found)}",
-        fix=(found.mistake.fix if found.mistake else "Decide which pose is correct.")
+        text=f"differs from {joint} of the robot description by {difference.text}: published {_pose_text(published)}, "
+        f"described {_pose_text(expected)}{_agreement_text(difference)}",
+        fix=(difference.mistake.fix if difference.mistake else "Decide which pose is correct.")
         + " If the pose of the robot description is correct, publish it only with "
         f"robot_state_publisher (its values: `{static_command(*edge.key, pose)}`); otherwise correct <origin> in "
         f"the URDF to "
         f"{_origin_attributes(published)}, and restart robot_state_publisher.",
-        harm=_CONSEQUENCE if found.mistake else "",
+        harm=_CONSEQUENCE if difference.mistake else "",
         edge=edge.key,
         first_stamp=edge.first_stamp,
         publishers=edge.publishers,
     )
 
 
-def _agreement_text(found: _Difference) -> str:
-    return f"; {found.mistake.text('it')}" if found.mistake is not None else ""
+def _agreement_text(difference: _Difference) -> str:
+    return f"; {difference.mistake.text('it')}" if difference.mistake is not None else ""
 
 
 def _pose_text(pose: Transform) -> str:
@@ -237,8 +237,8 @@ def _difference(observation: Observation, robot: Robot, name: str, edge: Edge) -
     return found
 
 
-def _is_different(found: _Difference) -> bool:
-    return found.meters >= _METERS or found.radians >= _RADIANS
+def _is_different(difference: _Difference) -> bool:
+    return difference.meters >= _METERS or difference.radians >= _RADIANS
 
 
 def _wrong_position(

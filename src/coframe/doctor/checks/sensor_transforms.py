@@ -77,29 +77,30 @@ def _mounts(observation: Observation, frame: str) -> tuple[str, ...]:
     return (set_static((bases or list(observation.frames) or ["base_link"])[-1], frame),)
 
 
-def _guess_misspelled(observation: Observation, frame: str, similar: str) -> tuple[str, str]:
+def _guess_misspelled(observation: Observation, frame: str, similar_name: str) -> tuple[str, str]:
     """Return which of two names is probably misspelled, and the other one.
 
     The name of a link in a robot description is right, and then one with a usual ending.
     """
-    described = [f'"{frame}"' in text and f'"{similar}"' not in text for text in observation.descriptions]
-    is_usual = frame.endswith(_USUAL_SUFFIXES) and not similar.endswith(_USUAL_SUFFIXES)
-    return (similar, frame) if is_usual or any(described) else (frame, similar)
+    described = [f'"{frame}"' in text and f'"{similar_name}"' not in text for text in observation.descriptions]
+    is_usual = frame.endswith(_USUAL_SUFFIXES) and not similar_name.endswith(_USUAL_SUFFIXES)
+    return (similar_name, frame) if is_usual or any(described) else (frame, similar_name)
 
 
-def _same_name_advice(observation: Observation, frame: str, similar: str) -> str:
+def _same_name_advice(observation: Observation, frame: str, similar_name: str) -> str:
     """Return advice about a message's frame whose name differs in a few letters from a frame in the tree.
 
     Either of the two may be misspelled. A name with the usual ending is probably the right one.
     """
-    in_messages = f"In the node of the sensor: msg.header.frame_id = {similar!r}"
-    if _guess_misspelled(observation, frame, similar)[0] == frame:
+    in_messages = f"In the node of the sensor: msg.header.frame_id = {similar_name!r}"
+    if _guess_misspelled(observation, frame, similar_name)[0] == frame:
         return in_messages
-    nodes = sorted({node for edge in observation.edges if edge.child == similar for node in edge.publishers})
+    nodes = sorted({node for edge in observation.edges if edge.child == similar_name for node in edge.publishers})
     publisher = f" ({join_names(nodes)})" if nodes else ""
     return (
-        f"In the publisher of {similar!r}{publisher}: child_frame_id = {frame!r}. Or, if {similar!r} is right, in the "
-        f"node of the sensor: msg.header.frame_id = {similar!r}"
+        f"In the publisher of {similar_name!r}{publisher}: child_frame_id = {frame!r}. "
+        f"Or, if {similar_name!r} is right, in the "
+        f"node of the sensor: msg.header.frame_id = {similar_name!r}"
     )
 
 

@@ -43,9 +43,9 @@ def find(observation: Observation) -> Iterator[Finding]:
             )
 
 
-def _cause(static: Edge, dynamic: Edge) -> str:
+def _cause(static: Edge, dynamic_edge: Edge) -> str:
     """Return a clause with the mistake that explains the difference of the two last poses, or "" if there is none."""
-    explained = explain_mutual_difference(static.last_pose, dynamic.last_pose)
+    explained = explain_mutual_difference(static.last_pose, dynamic_edge.last_pose)
     if explained is None:
         return ""
     mistake, is_static = explained

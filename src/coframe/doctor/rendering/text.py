@@ -61,12 +61,12 @@ def _summary(report: Report) -> Iterator[tuple[str, str]]:
         yield "plain", f"{found}; examined {examined}. For details: `coframe doctor --explain {every[0].code}`"
 
 
-def _other_transforms(seen: Observation) -> str:
+def _other_transforms(observation: Observation) -> str:
     """Return the other topics with transforms, or what to check."""
-    topics = [topic.name for topic in seen.topics.values() if is_tf_message(topic.type) and topic.messages]
+    topics = [topic.name for topic in observation.topics.values() if is_tf_message(topic.type) and topic.messages]
     if topics:
         return f"; there are transforms on {join_names(topics)}"
-    return ". Is a broadcaster running in the same ROS domain?" if seen.live else ""
+    return ". Is a broadcaster running in the same ROS domain?" if observation.live else ""
 
 
 def _sensor(sensor: SensorFacts) -> str:

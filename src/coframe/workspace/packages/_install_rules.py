@@ -62,15 +62,15 @@ def installed_files(package: Path, name: str) -> dict[str, Path]:
     return rules
 
 
-def _add(rules: dict[str, Path], relative: str, source: Path) -> None:
+def _add(rules: dict[str, Path], relative_path: str, source: Path) -> None:
     """Add a rule. As in CMake, folders that are installed to the same place are merged; the first file applies."""
     if len(rules) >= _MAX_RULES:
         return
-    first = rules.setdefault(relative, source)
-    if first == source or not (first.is_dir() and source.is_dir()) or relative.count("/") > _MAX_DEPTH:
+    first = rules.setdefault(relative_path, source)
+    if first == source or not (first.is_dir() and source.is_dir()) or relative_path.count("/") > _MAX_DEPTH:
         return
     for each in contents(source):
-        path = f"{relative}/{each.name}"
+        path = f"{relative_path}/{each.name}"
         if is_dir(first / each.name):
             rules.setdefault(path, first / each.name)
         if path in rules or not os.path.lexists(first / each.name):

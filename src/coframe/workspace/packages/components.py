@@ -41,7 +41,7 @@ def find_component(package: str, plugin: str) -> str:
         return found[plugin]
     if _TARGET.fullmatch(plugin):
         return plugin
-    there = did_you_mean(plugin, found, most=3)
+    there = did_you_mean(plugin, found, limit=3)
     hint = f"{there} Entry points of the group {_GROUP} and MODULE:CLASS name nodes in Python.".lstrip()
     raise PackageError(f"The package {package!r} has no composable node {plugin!r} in Python; {IN_CPP}.", hint=hint)
 

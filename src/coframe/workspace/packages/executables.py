@@ -65,7 +65,7 @@ def find_executable(package: str, name: str) -> Executable:
     found = executables(package)
     if name in found:
         return found[name]
-    guess = did_you_mean(name, found, most=3)
+    guess = did_you_mean(name, found, limit=3)
     names = sorted(found)
     there = f"Its executables: {', '.join(names[:_MAX_NAMES])}." if names else _executables_hint(package)
     raise PackageError(f"No executable {name!r} in the package {package!r}.", hint=f"{guess} {there}".lstrip())

@@ -70,7 +70,7 @@ def find_package(name: str) -> Package:
     if package is not None:
         return package
     known = package_names()
-    guess = did_you_mean(name, known, most=3)
+    guess = did_you_mean(name, known, limit=3)
     own = [each for each in known if each not in _builtin.names()]
     there = f"Packages: {', '.join(own[:_MAX_NAMES])}{', ...' if len(own) > _MAX_NAMES else ''}. " if own else ""
     raise PackageError(f"No package named {name!r}.", hint=f"{guess} {there}{_SEARCH_HINT}".lstrip())

@@ -57,29 +57,29 @@ def source_of(share: Path) -> Path:
     return _sources.get(share, share)
 
 
-def _links(package: Path, moved: dict[str, Path]) -> dict[str, str]:
+def _links(package: Path, moved_paths: dict[str, Path]) -> dict[str, str]:
     """Return the target of each link by its path in the share folder: the installed files, then those of the sources.
 
     A folder that contains an installed file is a folder of links itself.
     """
-    links = {relative: str(source.absolute()) for relative, source in moved.items()}
+    links = {relative: str(source.absolute()) for relative, source in moved_paths.items()}
     taken = {str(each) for relative in links for each in (PurePosixPath(relative), *PurePosixPath(relative).parents)}
     listed: set[tuple[str, Path]] = set()
 
-    def add_contents(relative: str, origin: Path | None) -> None:
-        if origin is None or (relative, origin) in listed:
+    def add_contents(relative_path: str, origin: Path | None) -> None:
+        if origin is None or (relative_path, origin) in listed:
             return
-        listed.add((relative, origin))
+        listed.add((relative_path, origin))
         for each in contents(origin):
-            path = f"{relative}/{each.name}" if relative else each.name
+            path = f"{relative_path}/{each.name}" if relative_path else each.name
             if path not in taken:
                 taken.add(path)
                 links[path] = str(each.absolute())
 
-    for relative, source in sorted(moved.items()):
+    for relative, source in sorted(moved_paths.items()):
         for parent in map(str, list(PurePosixPath(relative).parents)[:-1]):
             # The other files of the folder: those of another rule for the same folder, then those of the sources.
-            for origin in (moved.get(parent), package / parent):
+            for origin in (moved_paths.get(parent), package / parent):
                 add_contents(parent, origin)
             links.pop(parent, None)
         if relative in links and source.is_dir() and is_dir(package / relative):

@@ -108,7 +108,7 @@ class Parser:
         self.load_launch_extensions()
         name = entity.type_name
         if name not in action_parse_methods:
-            guess = did_you_mean(name, action_parse_methods, most=2)
+            guess = did_you_mean(name, action_parse_methods, limit=2)
             raise RuntimeError(f"Unrecognized entity of the type: {name}. {guess}".rstrip())
         try:
             kind, options = action_parse_methods[name](entity, self)

@@ -99,7 +99,7 @@ class _Reader:
 
 def _make(name: str, arguments: list[list[Substitution]]) -> Substitution:
     if name not in substitution_parse_methods:
-        guess = did_you_mean(name, substitution_parse_methods, most=2)
+        guess = did_you_mean(name, substitution_parse_methods, limit=2)
         raise ValueError(f"Unknown substitution: $({name} ...). {guess}".rstrip())
     kind, options = substitution_parse_methods[name](arguments)
     positional = options.pop("args", ())

@@ -50,7 +50,7 @@ def get_launch_description_from_any_launch_file(
         check_regular(path)
     except FileNotFoundError:
         siblings = [each.name for each in path.parent.iterdir()] if path.parent.is_dir() else []
-        guess = did_you_mean(path.name, siblings, most=2)
+        guess = did_you_mean(path.name, siblings, limit=2)
         raise FileNotFoundError(f"No launch file {launch_file_path}. {guess}".rstrip()) from None
     if path.suffix == ".py":
         return get_launch_description_from_python_launch_file(launch_file_path)

@@ -61,5 +61,5 @@ class LaunchConfiguration(Substitution):
             return value
         if self.__default is not None:
             return perform_substitutions(context, self.__default)
-        guess = did_you_mean(name, context.launch_configurations, most=2)
+        guess = did_you_mean(name, context.launch_configurations, limit=2)
         raise SubstitutionFailure(f"launch configuration '{name}' does not exist" + (f". {guess}" if guess else ""))

@@ -93,24 +93,24 @@ class Clock(Rule):
             self.changes += changed
         return True
 
-    def _tick(self, received: int, simulated: int) -> None:
-        self._received_count, self._simulated_count = received, simulated
-        self._ticks.append((received, simulated))
-        while self._ticks[0][0] < received - SECOND:
+    def _tick(self, receive_time: int, simulated: int) -> None:
+        self._received_count, self._simulated_count = receive_time, simulated
+        self._ticks.append((receive_time, simulated))
+        while self._ticks[0][0] < receive_time - SECOND:
             self._ticks.popleft()
         first = self._ticks[0]
-        if received > first[0] and simulated >= first[1]:
-            self._rate = (simulated - first[1]) / (received - first[0])
+        if receive_time > first[0] and simulated >= first[1]:
+            self._rate = (simulated - first[1]) / (receive_time - first[0])
 
-    def _convert_stamp(self, stamp: int, received: int) -> int:
-        now = self._simulated_count + round((received - self._received_count) * self._rate)
-        is_wall, is_simulated = abs(received - stamp) < SAME_CLOCK, abs(now - stamp) < MINUTE
+    def _convert_stamp(self, stamp: int, receive_time: int) -> int:
+        now = self._simulated_count + round((receive_time - self._received_count) * self._rate)
+        is_wall, is_simulated = abs(receive_time - stamp) < SAME_CLOCK, abs(now - stamp) < MINUTE
         if is_simulated in {is_wall, self._to_sim}:
             return stamp
         if self._to_sim:
-            new = now + round((stamp - received) * self._rate)
+            new = now + round((stamp - receive_time) * self._rate)
         else:
-            new = received + round((stamp - now) / max(self._rate, _MIN_RATE))
+            new = receive_time + round((stamp - now) / max(self._rate, _MIN_RATE))
         return new if 0 < new < MAX_STAMP else stamp
 
 

@@ -41,7 +41,7 @@ class DropInvalid(Rule):
         return bool(kept)
 
 
-def _is_accepted(one: RecordedTransform, order: str) -> bool:
-    parent, child = (str(name, "utf-8", "replace") for name in (one.parent, one.child))
-    x, y, z, qx, qy, qz, qw = struct.unpack(f"{order}7d", one.pose)
+def _is_accepted(transform: RecordedTransform, order: str) -> bool:
+    parent, child = (str(name, "utf-8", "replace") for name in (transform.parent, transform.child))
+    x, y, z, qx, qy, qz, qw = struct.unpack(f"{order}7d", transform.pose)
     return Buffer(None)._set_values(parent, child, 0, x, y, z, qx, qy, qz, qw, True, "") == 0

@@ -79,8 +79,8 @@ class DropPublisher(Rule):
                 hint="`coframe doctor BAG` reports transforms with two publishers.",
             )
 
-    def _is_wanted(self, one: RecordedTransform) -> bool:
-        names = (one.parent.removeprefix(b"/"), one.child.removeprefix(b"/"))
+    def _is_wanted(self, transform: RecordedTransform) -> bool:
+        names = (transform.parent.removeprefix(b"/"), transform.child.removeprefix(b"/"))
         return names == (self._parent, self._child)
 
     def step(self, topic: EditedTopic) -> Step | None:
@@ -121,10 +121,10 @@ class DropPublisher(Rule):
         message.set_transforms(kept)
         return bool(kept)
 
-    def _is_of_publisher(self, one: RecordedTransform, message: EditedMessage) -> bool:
+    def _is_of_publisher(self, transform: RecordedTransform, message: EditedMessage) -> bool:
         if not self._track:
             return True
-        pose = _pose(one, message)
+        pose = _pose(transform, message)
         nearest = _nearest_end(pose, self._ends)
         self._ends[nearest] = pose
         return nearest + 1 == self._track
@@ -136,9 +136,9 @@ class DropPublisher(Rule):
         return did_you_mean(self._topic, [*survey.input_topics, *survey.publishers])
 
 
-def _pose(one: RecordedTransform, message: EditedMessage) -> NDArray[np.float64]:
+def _pose(transform: RecordedTransform, message: EditedMessage) -> NDArray[np.float64]:
     """Return x, y, z in meters and the quaternion with w >= 0, for distances that mix meters and radians."""
-    values = np.array(struct.unpack(f"{BYTE_ORDERS[message.data[:2]]}7d", one.pose))
+    values = np.array(struct.unpack(f"{BYTE_ORDERS[message.data[:2]]}7d", transform.pose))
     return np.asarray(np.concatenate([values[:3], 2.0 * values[3:] * (1.0 if values[6] >= 0.0 else -1.0)]))
 
 

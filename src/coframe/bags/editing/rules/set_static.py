@@ -59,8 +59,8 @@ class SetStatic(Rule):
         else:
             raise EditError(f"{text[:60]!r} does not have the form {self.form}")
 
-    def _add(self, one: StaticTransform) -> None:
-        self._set[one.child.encode()] = one
+    def _add(self, transform: StaticTransform) -> None:
+        self._set[transform.child.encode()] = transform
 
     def prepare(self, survey: Survey) -> None:
         """Read the file, and find out which transforms are missing.
