@@ -148,9 +148,9 @@ def from_euler(seq: str, angles: Array) -> Array:
     q: Array = np.zeros((*angles.shape[:-1], 4))
     q[..., 3] = 1.0
     for i, axis in enumerate(axes):
-        turn = np.zeros_like(q)
-        turn[..., axis], turn[..., 3] = np.sin(angles[..., i] / 2), np.cos(angles[..., i] / 2)
-        q = multiply(q, turn) if intrinsic else multiply(turn, q)
+        axis_rotation = np.zeros_like(q)
+        axis_rotation[..., axis], axis_rotation[..., 3] = np.sin(angles[..., i] / 2), np.cos(angles[..., i] / 2)
+        q = multiply(q, axis_rotation) if intrinsic else multiply(axis_rotation, q)
     return q
 
 

@@ -164,9 +164,9 @@ def _parse_duration(text: str) -> int:
     if match is None or match[3] not in _UNITS:
         units = ", ".join(_UNITS)
         raise ValueError(f'{text!r} is not a duration. Write a number and a unit ({units}), such as "100ms".')
-    whole, fraction, unit = match[1], match[2] or "", _UNITS[match[3]]
+    integer_part, fraction, unit = match[1], match[2] or "", _UNITS[match[3]]
     scale: int = 10 ** len(fraction)
-    return int(whole) * unit + int(fraction or "0") * unit // scale
+    return int(integer_part) * unit + int(fraction or "0") * unit // scale
 
 
 def _timedelta_ns(delta: datetime.timedelta) -> int:

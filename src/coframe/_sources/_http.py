@@ -240,18 +240,18 @@ class HttpRanges:
         status, encoding = response.status, (response.getheader("Content-Encoding") or "").strip().lower()
         version = (response.getheader("ETag") or "", response.getheader("Last-Modified") or "")
         encoding = "" if encoding == "identity" else encoding
-        stated = response.getheader("Content-Range") or ""
+        content_range = response.getheader("Content-Range") or ""
         if status == 206:
-            match = _CONTENT_RANGE.fullmatch(stated.strip())
-            if match is None and "/*" not in stated:
-                raise _InterruptedError(f"the server answered with an invalid range, {stated[:60]!r}")
+            match = _CONTENT_RANGE.fullmatch(content_range.strip())
+            if match is None and "/*" not in content_range:
+                raise _InterruptedError(f"the server answered with an invalid range, {content_range[:60]!r}")
             if match is None:
                 return _RangeResponse(response, status, 0, 0, None, encoding, version)
             start, last, total = map(int, match.groups())
             if not start <= last < total <= _MAX_SIZE:
-                raise _InterruptedError(f"the server answered with an invalid range, {stated[:60]!r}")
+                raise _InterruptedError(f"the server answered with an invalid range, {content_range[:60]!r}")
             return _RangeResponse(response, status, start, last + 1, total, encoding, version)
-        if status == 416 and (match := _UNSATISFIED_RANGE.fullmatch(stated.strip())) and int(match[1]) == 0:
+        if status == 416 and (match := _UNSATISFIED_RANGE.fullmatch(content_range.strip())) and int(match[1]) == 0:
             self.close()
             return _RangeResponse(response, status, 0, 0, 0, "", version)
         if status == 200:
@@ -267,9 +267,9 @@ class HttpRanges:
 
     def _body(self, answer: _RangeResponse, limit: int) -> bytes:
         """Return the body of a response, at most ``limit`` bytes of it."""
-        wanted = min(answer.end - answer.start, limit)
-        data = b"".join(self._read_pieces(answer, wanted))
-        if answer.end - answer.start > wanted or not answer.response.isclosed():
+        size = min(answer.end - answer.start, limit)
+        data = b"".join(self._read_pieces(answer, size))
+        if answer.end - answer.start > size or not answer.response.isclosed():
             self.close()  # The rest is not needed.
         return data
 

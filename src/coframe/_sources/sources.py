@@ -265,13 +265,13 @@ class _Http(_Url):
         ranges = HttpRanges(self._url)
         if ranges.is_ranged:
             return ranges
-        whole = cast("BinaryIO", tempfile.TemporaryFile())  # noqa: SIM115 - `close` closes it
+        download = cast("BinaryIO", tempfile.TemporaryFile())  # noqa: SIM115 - `close` closes it
         with ExitStack() as on_error:
-            on_error.callback(whole.close)
-            ranges.download(whole.write, max_download(tempfile.gettempdir()), self.progress)
+            on_error.callback(download.close)
+            ranges.download(download.write, max_download(tempfile.gettempdir()), self.progress)
             on_error.pop_all()
         self.is_remote = False
-        return DownloadedRanges(whole, ranges.name, ranges.version)
+        return DownloadedRanges(download, ranges.name, ranges.version)
 
 
 class _Store(_Url):

@@ -106,15 +106,15 @@ def estimator_advice(parent: str, child: str, node: str = "") -> str:
         ''
     """
     upper, lower = _without_prefix(parent), _without_prefix(child)
-    named = f" ({node})" if node else ""
+    label = f" ({node})" if node else ""
     if upper == "odom" and lower in BASE_FRAMES:
         return (
-            f"Your odometry publisher{named} does not broadcast {parent} -> {child} (often an option such as "
+            f"Your odometry publisher{label} does not broadcast {parent} -> {child} (often an option such as "
             "publish_tf): enable it, or broadcast the pose of each odometry message."
         )
     if upper == "map" and lower in {"odom", *BASE_FRAMES}:
         return (
-            f"Your localization or SLAM node{named} does not broadcast {parent} -> {child} (often an option such as "
+            f"Your localization or SLAM node{label} does not broadcast {parent} -> {child} (often an option such as "
             "publish_tf or tf_broadcast): start it, or enable the option; localization also needs an initial pose."
         )
     return ""

@@ -70,5 +70,5 @@ def _are_similar_words(a: str, b: str) -> bool:
 
 def _words(name: str) -> list[str]:
     """Return the words of a name without the prefix of the robot, in lower case: `robot1/base_link` has two."""
-    bare = name.rstrip("/").rpartition("/")[2]
-    return [word.lower() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+|[^\W\d_]+", bare)]
+    base_name = name.rstrip("/").rpartition("/")[2]
+    return [word.lower() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+|[^\W\d_]+", base_name)]

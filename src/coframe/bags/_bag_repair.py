@@ -265,9 +265,9 @@ class _Repair:
         if route.transforms:
             message = self._remove_rejected(channel, message)
         if route.names is not None and (route.rename.has_prefix or b"/" in message):
-            message, changed = route.names.rename(message, route.rename)
-            if changed:
-                self._count(channel, f"frame names {route.rename.change}", changed)
+            message, change_count = route.names.rename(message, route.rename)
+            if change_count:
+                self._count(channel, f"frame names {route.rename.change}", change_count)
         return message
 
     def _remove_rejected(self, channel: Channel, data: bytes) -> bytes:

@@ -209,12 +209,12 @@ class Clouds:
         """Number of messages to read."""
         if self._only_at is not None:
             return 1
-        chosen = np.ones(len(self._stamps), dtype=bool)
+        selection = np.ones(len(self._stamps), dtype=bool)
         if self._start is not None:
-            chosen &= self._stamps >= time.stamp_ns(self._start)
+            selection &= self._stamps >= time.stamp_ns(self._start)
         if self._stop is not None:
-            chosen &= self._stamps < time.stamp_ns(self._stop)
-        return int(np.count_nonzero(chosen))
+            selection &= self._stamps < time.stamp_ns(self._stop)
+        return int(np.count_nonzero(selection))
 
     def __iter__(self) -> Iterator[Cloud]:
         self._reset_counts()

@@ -215,12 +215,14 @@ class _ReadState:
 
     def _read_files(self, storages: list[Storage]) -> None:
         total = sum(storage.size for storage in storages)
-        done = 0
+        bytes_read = 0
         for storage in storages:
-            for batch in self._batches(storage, lambda bytes_, before=done: self._progress(before + bytes_, total)):  # type: ignore[misc]
+            for batch in self._batches(
+                storage, lambda bytes_, before=bytes_read: self._progress(before + bytes_, total)
+            ):  # type: ignore[misc]
                 self._add(storage, batch)
             self._add_channels(storage)
-            done += storage.size
+            bytes_read += storage.size
 
     def _add_channels(self, storage: Storage) -> None:
         """Add the channels of a file without messages so far."""

@@ -225,16 +225,16 @@ def _unpack_file(file: Path, problems: Problems, closing: ExitStack) -> tuple[Pa
     target = folder / file.name.removesuffix(COMPRESSED)
     budget = unpacked_budget(file.stat().st_size)
     # A damaged file yields a truncated one, and reading that reports the damage.
-    with open_regular(file) as packed, target.open("wb") as whole, suppress(zstandard.ZstdError):
-        source = _PackedFile(packed, whole)
+    with open_regular(file) as packed, target.open("wb") as unpacked_file, suppress(zstandard.ZstdError):
+        source = _PackedFile(packed, unpacked_file)
         reader = zstandard.ZstdDecompressor().stream_reader(source)
         while piece := reader.read(_UNPACKED_PIECE):
-            if whole.tell() + len(piece) > budget:
+            if unpacked_file.tell() + len(piece) > budget:
                 problems.add(f"{file.name} unpacks to more than the maximum of {budget} bytes; the rest was not read")
                 break
-            whole.write(piece)
+            unpacked_file.write(piece)
         if source.is_implausible:
-            problems.add(f"{file.name} is damaged: {packed.tell()} bytes unpack to only {whole.tell()}")
+            problems.add(f"{file.name} is damaged: {packed.tell()} bytes unpack to only {unpacked_file.tell()}")
     return target, _read_beginning(target)
 
 

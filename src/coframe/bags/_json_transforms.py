@@ -112,8 +112,8 @@ def _parse_timestamp(stamp: Any) -> int:
     """
     if isinstance(stamp, str) and (match := _RFC_3339.fullmatch(stamp.strip())):
         day, clock, fraction, offset = match.groups()
-        whole = datetime.datetime.fromisoformat(f"{day}T{clock}{offset or '+00:00'}") - _EPOCH
-        return (whole.days * 86400 + whole.seconds) * time.SECOND + int((fraction or "").ljust(9, "0"))
+        whole_seconds = datetime.datetime.fromisoformat(f"{day}T{clock}{offset or '+00:00'}") - _EPOCH
+        return (whole_seconds.days * 86400 + whole_seconds.seconds) * time.SECOND + int((fraction or "").ljust(9, "0"))
     if isinstance(stamp, dict) and stamp:
         seconds = [stamp[name] for name in _SECONDS if name in stamp]
         fractions = [stamp[name] for name in _NANOSECONDS if name in stamp]

@@ -168,8 +168,8 @@ class StampFields:
         """
         if not self._is_alone:
             message = deserialize(data, self._class)
-            changed = _change_stamps(message, self._plan, change)
-            return (serialize(message), changed) if changed else (data, 0)
+            change_count = _change_stamps(message, self._plan, change)
+            return (serialize(message), change_count) if change_count else (data, 0)
         order, old = _read_stamp(data)
         new = change(old) if old else old
         if new == old:
@@ -248,16 +248,16 @@ def _stamps(cls: Any, known: dict[Any, _Plan]) -> _Plan:
 
 
 def _change_stamps(message: Any, plan: _Plan, change: Callable[[int], int]) -> int:
-    changed = 0
+    change_count = 0
     for name, inner in plan.items():
         value = getattr(message, name)
         for part in value if isinstance(value, list) else [value]:
             if inner is not None:
-                changed += _change_stamps(part, inner, change)
+                change_count += _change_stamps(part, inner, change)
             elif (old := part.sec * SECOND + part.nanosec) and (new := change(old)) != old:
                 part.sec, part.nanosec = divmod(new, SECOND)
-                changed += 1
-    return changed
+                change_count += 1
+    return change_count
 
 
 def _name(type_: AbstractType) -> str:

@@ -175,11 +175,11 @@ class RecordingFormat:
         Args:
             file: The name of a file without its suffix.
         """
-        bare = bare_name(file)
-        return file if bare is None else bare
+        stem = bare_name(file)
+        return file if stem is None else stem
 
 
 def bare_name(file: str) -> str | None:
     """Return the name of a file without the number at its end, or None if it has no number."""
-    bare, separator, number = file.rpartition("_")
-    return bare if separator and number.isdigit() else None
+    stem, separator, number = file.rpartition("_")
+    return stem if separator and number.isdigit() else None

@@ -91,8 +91,8 @@ class ChunkReader:
     def load(self, topics: Collection[str], start: int | None = None, stop: int | None = None) -> None:
         """Add the messages on topics that were received from ``start`` until ``stop``, and others."""
         with self._lock:
-            wanted = [topic for topic in topics if topic not in self._complete]
-            channels = self._channels(wanted)
+            missing_topics = [topic for topic in topics if topic not in self._complete]
+            channels = self._channels(missing_topics)
             chunks = [
                 chunk
                 for chunk in self._chunks
@@ -102,7 +102,7 @@ class ChunkReader:
             ]
             self._add_chunks([chunk for chunk in chunks if chunk.key not in self._read_positions])
             if start is None and stop is None:
-                self._complete.update(wanted)
+                self._complete.update(missing_topics)
 
     def load_first(self, topic: str) -> None:
         """Add the first messages on a topic, and others."""

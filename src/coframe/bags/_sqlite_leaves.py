@@ -78,8 +78,8 @@ class Leaves:
     def __init__(self, path: Path) -> None:
         self._file: BinaryIO = open_regular(path)
         header = self._file.read(_HEADER).ljust(_HEADER, b"\0")
-        (stated,) = struct.unpack_from(">H", header, 16)
-        size = 65536 if stated == 1 else stated
+        (page_size,) = struct.unpack_from(">H", header, 16)
+        size = 65536 if page_size == 1 else page_size
         self._page = self._usable_bytes = 4096
         self._bad_cells = 0  # in the current search
         self._max_message_size = min(path.stat().st_size, MAX_UNPACKED_BYTES)

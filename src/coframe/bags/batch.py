@@ -208,12 +208,12 @@ class _TrajectoryRun:
     def tables(self) -> Iterator[Any]:
         """Yield the poses as one table."""
         pyarrow = _pyarrow()
-        wanted = self._query.stamps(self._recording)
+        requested_stamps = self._query.stamps(self._recording)
         poses, self._missing_count = self._query.run(self._recording)
         stamps = np.zeros(1, dtype=np.int64) if poses.stamps is None else np.atleast_1d(poses.stamps)
         name = f"{self._query.target}:{self._query.source}"
-        self._omissions = omissions_of(name, "no transform", ~np.isin(wanted, stamps), wanted)
-        self._gaps = self._query.gap_text(self._recording, wanted)
+        self._omissions = omissions_of(name, "no transform", ~np.isin(requested_stamps, stamps), requested_stamps)
+        self._gaps = self._query.gap_text(self._recording, requested_stamps)
         values = np.concatenate([np.atleast_2d(poses.translation), np.atleast_2d(poses.quaternion)], axis=1)
         columns = {"bag": _bag_column(pyarrow, self._recording, len(values)), "stamp_ns": stamps}
         columns |= dict(zip(POSE_COLUMNS, values.T.copy(), strict=True))
@@ -251,8 +251,8 @@ class _TableRun:
             complete = np.logical_and.reduce([each.valid for each in table.columns])
             rows = table.taken(complete) if omits else table
             self._missing_count += len(table) - len(rows)
-            flat = rows.to_arrow(flat=True)
-            yield flat.add_column(0, "bag", _bag_column(pyarrow, self._recording, len(rows)))
+            flat_table = rows.to_arrow(flat=True)
+            yield flat_table.add_column(0, "bag", _bag_column(pyarrow, self._recording, len(rows)))
 
     def _parts(self, query: TableQuery) -> Iterator[Table]:
         if self._recording.is_waiting and not (query.start is None and query.stop is None):

@@ -116,13 +116,13 @@ def copy_recordings(
             cannot be measured, or the copy cannot be written.
         ValueError: There is not one prefix, namespace or offset for each recording, or a prefix begins with a slash.
     """
-    chosen = None if topics is None else list(topics)
+    topic_names = None if topics is None else list(topics)
     with ExitStack() as stack:
         recordings = [
             stack.enter_context(open_bag(source, progress=lambda done, total: progress("reading", done, total)))
             for source in sources
         ]
-        selections = [_selected_topics(recording, recordings, chosen) for recording in recordings]
+        selections = [_selected_topics(recording, recordings, topic_names) for recording in recordings]
         merged = MergedNames(recordings, prefixes, keep, namespaces)
         shifts = _shifts(recordings, offsets)
         if not join:

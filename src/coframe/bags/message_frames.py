@@ -76,8 +76,8 @@ class FrameNames:
             DecodeError: The bytes are damaged.
         """
         message = deserialize(data, self._class)
-        changed = _rename(message, self._plan, rename)
-        return (serialize(message), changed) if changed else (data, 0)
+        change_count = _rename(message, self._plan, rename)
+        return (serialize(message), change_count) if change_count else (data, 0)
 
 
 def _plan(cls: Any, known: dict[Any, _Plan]) -> _Plan:
@@ -96,12 +96,14 @@ def _plan(cls: Any, known: dict[Any, _Plan]) -> _Plan:
 
 
 def _rename(message: Any, plan: _Plan, rename: Callable[[str], str]) -> int:
-    changed = 0
+    change_count = 0
     for name, inner in plan.items():
         value = getattr(message, name)
         if inner is not None:
-            changed += sum(_rename(part, inner, rename) for part in (value if isinstance(value, list) else [value]))
+            change_count += sum(
+                _rename(part, inner, rename) for part in (value if isinstance(value, list) else [value])
+            )
         elif (new := rename(value)) != value:
             setattr(message, name, new)
-            changed += 1
-    return changed
+            change_count += 1
+    return change_count

@@ -248,12 +248,12 @@ class Recording:
         """
         name = self._index.find_topic(topic)
         stamps = self._index.stamps(name)
-        chosen = np.ones(len(stamps), dtype=bool)
+        selection = np.ones(len(stamps), dtype=bool)
         if start is not None:
-            chosen &= stamps >= time.stamp_ns(start)
+            selection &= stamps >= time.stamp_ns(start)
         if stop is not None:
-            chosen &= stamps < time.stamp_ns(stop)
-        return self._read_all(name, np.flatnonzero(chosen))
+            selection &= stamps < time.stamp_ns(stop)
+        return self._read_all(name, np.flatnonzero(selection))
 
     def message_in_row(self, topic: str, row: int) -> RecordedMessage | None:
         """Return a message by its number in receive order, or None if it can no longer be read.

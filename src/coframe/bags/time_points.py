@@ -44,9 +44,11 @@ def parse_time_point(text: str, span: tuple[int, int]) -> int:
     if text in {"start", "end"}:
         return span[0] if text == "start" else span[1]
     if match := _NUMBER.fullmatch(text):
-        whole = int(match[1][:30])
-        is_nanoseconds = match[2] is None and whole * time.SECOND >= 2**63
-        return _check_range(text, whole if is_nanoseconds else whole * time.SECOND + _parse_fraction(text, match[2]))
+        whole_seconds = int(match[1][:30])
+        is_nanoseconds = match[2] is None and whole_seconds * time.SECOND >= 2**63
+        return _check_range(
+            text, whole_seconds if is_nanoseconds else whole_seconds * time.SECOND + _parse_fraction(text, match[2])
+        )
     if match := _OFFSET.fullmatch(text):
         try:
             offset = time.duration_ns(match[2])
@@ -71,10 +73,10 @@ def _parse_iso(text: str, match: re.Match[str]) -> int:
     zone = "+00:00" if match[3] == "Z" else match[3]
     zone = zone if ":" in zone else f"{zone[:3]}:{zone[3:]}"
     try:
-        whole = datetime.datetime.fromisoformat(f"{match[1].replace(' ', 'T')}{zone}")
+        whole_seconds = datetime.datetime.fromisoformat(f"{match[1].replace(' ', 'T')}{zone}")
     except ValueError as error:
         raise ValueError(f"{text!r} is not a point in time: {error}") from None
-    return time.stamp_ns(whole) + _parse_fraction(text, match[2])
+    return time.stamp_ns(whole_seconds) + _parse_fraction(text, match[2])
 
 
 def _check_range(text: str, nanoseconds: int) -> int:

@@ -108,8 +108,8 @@ class Place:
         """Return the rigid motion of a rotation matrix (3, 3), whose rounded numbers are made orthogonal."""
         if np.abs(rotation).max() > _MAX_SCALE:
             self.fail("is not a rotation: its numbers are too large")
-        off = float(np.abs(rotation @ rotation.T - np.eye(3)).max())
-        if off > _MAX_ROTATION_ERROR or np.linalg.det(rotation) < 0.0:
+        deviation = float(np.abs(rotation @ rotation.T - np.eye(3)).max())
+        if deviation > _MAX_ROTATION_ERROR or np.linalg.det(rotation) < 0.0:
             scale = float(np.cbrt(abs(np.linalg.det(rotation))))
             reason = "mirrors the axes" if np.linalg.det(rotation) < 0.0 else f"is scaled by about {scale:.4g}"
             self.fail(f"is not a rotation: it {reason}")

@@ -167,9 +167,9 @@ def compare_rigs(first: Rig, second: Rig, renamed: Mapping[str, str] | None = No
     mounts = tuple(_mount_differences(first, second, back))
     own = {back.get(name, name): name for name in first.cameras}
     cameras = tuple(
-        _camera_difference(name, first.cameras[name], second.cameras[other])
-        for other, name in own.items()
-        if other in second.cameras
+        _camera_difference(name, first.cameras[name], second.cameras[second_buffer])
+        for second_buffer, name in own.items()
+        if second_buffer in second.cameras
     )
     offsets = tuple(
         _offset_difference(name, first.time_offsets[name], second.time_offsets[back.get(name, name)])
@@ -196,7 +196,7 @@ def compare_rigs(first: Rig, second: Rig, renamed: Mapping[str, str] | None = No
 
 def _mount_differences(first: Rig, second: Rig, names: Mapping[str, str]) -> list[MountDifference]:
     """Return the differences of each common frame relative to the next common frame above it, in the first rig."""
-    one, other = first.buffer(), second.buffer()
+    first_buffer, second_buffer = first.buffer(), second.buffer()
     shared = {name for name in first.frames if names.get(name, name) in second.frames}
     tree = FrameTrees.from_parents({str(m.source): str(m.target) for m in first.transforms}, first.frames)
     found, roots = [], dict[str, str]()
@@ -209,8 +209,8 @@ def _mount_differences(first: Rig, second: Rig, names: Mapping[str, str]) -> lis
         if parent == child:
             continue
         try:
-            expected = one.lookup(parent, child)
-            published = other.lookup(names.get(parent, parent), names.get(child, child))
+            expected = first_buffer.lookup(parent, child)
+            published = second_buffer.lookup(names.get(parent, parent), names.get(child, child))
         except TransformException:
             continue
         found.append(_mount_difference(parent, child, np.array(expected.values), np.array(published.values)))
@@ -246,11 +246,11 @@ def _camera_difference(name: str, first: CameraModel, second: CameraModel) -> Ca
     if not all(size):
         size = (int(2 * first.k[0, 2]) + 1, int(2 * first.k[1, 2]) + 1)
     grid = np.stack(np.meshgrid(*(np.linspace(0, side - 1, _GRID_POINTS) for side in size)), axis=-1).reshape(-1, 2)
-    moved = second.project(first.rays(grid))
-    off = np.linalg.norm(moved - grid, axis=1)
-    if not np.isfinite(off).any():
+    second_pixels = second.project(first.rays(grid))
+    distances = np.linalg.norm(second_pixels - grid, axis=1)
+    if not np.isfinite(distances).any():
         return CameraDifference(name, float("nan"), "no ray is seen by both lenses")
-    return CameraDifference(name, float(np.nanmax(off)))
+    return CameraDifference(name, float(np.nanmax(distances)))
 
 
 def _offset_difference(name: str, first: float, second: float) -> OffsetDifference:

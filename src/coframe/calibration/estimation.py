@@ -144,11 +144,11 @@ def calibrate_rigid(
         >>> found.transform.is_close(mount, translation=0.01, rotation=0.01)
         True
     """
-    one, other = _Track(first, "the first trajectory"), _Track(second, "the second trajectory")
-    origin = int(one.stamps[0])
-    start_offset = _start_offset(one, other) if time_offset is None else time_offset
-    begin, end = _pairs(one, other, origin, start_offset or 0.0)
-    problem = _Problem(one, other, origin, begin, end, prior or Transform())
+    first_track, second_track = _Track(first, "the first trajectory"), _Track(second, "the second trajectory")
+    origin = int(first_track.stamps[0])
+    start_offset = _start_offset(first_track, second_track) if time_offset is None else time_offset
+    begin, end = _pairs(first_track, second_track, origin, start_offset or 0.0)
+    problem = _Problem(first_track, second_track, origin, begin, end, prior or Transform())
     return problem.solved(start_offset or 0.0, free_offset=time_offset is None)
 
 
@@ -190,8 +190,8 @@ def _pairs(first: _Track, second: _Track, origin: int, offset: float) -> tuple[A
     """Return random pairs of times, in seconds, between which both trajectories have no gap."""
     random = np.random.default_rng(0)
     span = max(float(first.stamps[-1] - origin) / SECOND, 1e-9)
-    wanted = int(np.clip(min(len(first.stamps), len(second.stamps)), MIN_PAIRS, MAX_PAIRS))
-    begin = random.uniform(0.0, span, wanted * _MAX_SAMPLES_OF_PAIRS)
+    pair_count = int(np.clip(min(len(first.stamps), len(second.stamps)), MIN_PAIRS, MAX_PAIRS))
+    begin = random.uniform(0.0, span, pair_count * _MAX_SAMPLES_OF_PAIRS)
     end = begin + random.uniform(*_WINDOWS, len(begin))
     margin = 0.1  # seconds by which the offset may change
     known = first.covers(begin, end, origin) & second.covers(begin - offset - margin, end - offset + margin, origin)
@@ -200,7 +200,7 @@ def _pairs(first: _Track, second: _Track, origin: int, offset: float) -> tuple[A
             f"the trajectories have only {np.count_nonzero(known)} common motions without gaps; {MIN_PAIRS} are needed",
             hint="Record both at the same time, with at most 0.5 s between poses, and check the clocks.",
         )
-    return begin[known][:wanted], end[known][:wanted]
+    return begin[known][:pair_count], end[known][:pair_count]
 
 
 class _Problem:
@@ -215,13 +215,13 @@ class _Problem:
     def _sensor(self, offset: float) -> _Motions:
         return self._other.motions(self._begin - offset, self._end - offset, self._origin)
 
-    def residuals(self, turn: Array, place: Array, offset: float) -> tuple[Array, Array]:
+    def residuals(self, mount_rotation: Array, place: Array, offset: float) -> tuple[Array, Array]:
         """Return the rotations and translations (N, 3) by which a X and X b differ."""
         body, sensor = self._body, self._sensor(offset)
-        left = quaternion.multiply(body.turn, turn)
-        right = quaternion.multiply(turn, sensor.turn)
+        left = quaternion.multiply(body.turn, mount_rotation)
+        right = quaternion.multiply(mount_rotation, sensor.turn)
         rotation = quaternion.to_rotvec(quaternion.multiply(quaternion.inverse(left), right))
-        return rotation, quaternion.rotate(turn, sensor.place) + place - quaternion.rotate(
+        return rotation, quaternion.rotate(mount_rotation, sensor.place) + place - quaternion.rotate(
             body.turn, place
         ) - body.place
 
@@ -230,26 +230,26 @@ class _Problem:
         body, sensor = self._body, self._sensor(offset)
         a, b = quaternion.to_rotvec(body.turn), quaternion.to_rotvec(sensor.turn)
         left, _, right = np.linalg.svd(a.T @ b)
-        turn = quaternion.from_matrix(left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right)
+        mount_rotation = quaternion.from_matrix(left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right)
         levers = quaternion.to_matrix(body.turn) - np.eye(3)
         axis = np.linalg.eigh(a.T @ a)[1][:, -1]
-        best: tuple[float, Array, Array] = (np.inf, turn, np.zeros(3))
+        best: tuple[float, Array, Array] = (np.inf, mount_rotation, np.zeros(3))
         for angle in np.arange(_START_ANGLES) * 2.0 * np.pi / _START_ANGLES:
             # Motions about one axis leave the rotation about it open, which the translations then show.
-            candidate = quaternion.multiply(quaternion.from_rotvec(axis * angle), turn)
+            candidate = quaternion.multiply(quaternion.from_rotvec(axis * angle), mount_rotation)
             aim = (quaternion.rotate(candidate, sensor.place) - body.place).reshape(-1)
             place = np.asarray(np.linalg.lstsq(levers.reshape(-1, 3), aim, rcond=0.02)[0], np.float64)
             rotation, translation = self.residuals(candidate, place, offset)
             size = float(np.mean(rotation**2) + np.mean(np.minimum(translation**2, 1.0)))
             if size < best[0]:
                 best = (size, candidate, place)
-        moved = np.einsum("nij,nik->jk", levers, levers) / len(levers)
-        return best[1], best[2], moved
+        lever_products = np.einsum("nij,nik->jk", levers, levers) / len(levers)
+        return best[1], best[2], lever_products
 
     def solved(self, offset: float, *, free_offset: bool) -> RigidCalibration:
         optimize = import_optional("scipy.optimize", "Calibration", "calibration")
-        turn, place, moved = self.start(offset)
-        rotation, _ = self.residuals(turn, place, offset)
+        mount_rotation, place, moved = self.start(offset)
+        rotation, _ = self.residuals(mount_rotation, place, offset)
         noise = _MAD_TO_DEVIATION * float(np.median(np.abs(rotation)))
         values, axes = np.linalg.eigh(moved)
         is_hidden = np.sqrt(np.maximum(values, 0.0)) < max(_MIN_EXCITATION * noise, _MIN_MOTION)
@@ -261,7 +261,7 @@ class _Problem:
         def apply(step: Array) -> tuple[Array, Array, float]:
             moved_place = known + shown @ (shown.T @ place + step[3 : 3 + shown.shape[1]])
             now = offset + (float(step[-1]) if free_offset else 0.0)
-            return quaternion.multiply(turn, quaternion.from_rotvec(step[:3])), moved_place, now
+            return quaternion.multiply(mount_rotation, quaternion.from_rotvec(step[:3])), moved_place, now
 
         scales = np.array([1.0, 1.0])
 
@@ -302,21 +302,21 @@ class _Problem:
         *,
         free_offset: bool,
     ) -> RigidCalibration:
-        turn, place, offset = solution
+        mount_rotation, place, offset = solution
         hidden, shown = directions
         size = shown.shape[1]
         # The steps of the rotation are in the sensor's axes; a covariance of ROS is in those of the body.
         jacobian = np.zeros((6, 3 + size))
-        jacobian[3:, :3] = quaternion.to_matrix(turn)
+        jacobian[3:, :3] = quaternion.to_matrix(mount_rotation)
         jacobian[:3, 3:] = shown
         whole = jacobian @ covariance[: 3 + size, : 3 + size] @ jacobian.T
         whole[:3, :3] += _PRIOR_DEVIATION**2 * hidden.T @ hidden
-        rotation, translation = self.residuals(turn, place, offset)
+        rotation, translation = self.residuals(mount_rotation, place, offset)
         deviation = float(np.sqrt(covariance[-1, -1])) if free_offset else float("nan")
         is_shown = bool(np.sqrt(np.linalg.eigvalsh(whole[3:, 3:])[-1]) < _MAX_ROTATION_DEVIATION)
         return RigidCalibration(
-            Transform(place, turn, covariance=(whole + whole.T) / 2.0),
-            self._reference(turn, place, offset),
+            Transform(place, mount_rotation, covariance=(whole + whole.T) / 2.0),
+            self._reference(mount_rotation, place, offset),
             offset,
             deviation,
             hidden,

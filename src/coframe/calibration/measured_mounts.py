@@ -126,9 +126,9 @@ def measure_pair(recording: Recording, first: str, second: str) -> MeasuredMount
             f"the poses on {first} and {second} are in the frames {parent!r} and {child!r}, not those of two sensors",
             hint="Give topics with poses of one object, each in the frame of its sensor.",
         )
-    one, other = poses
-    at_same_times = resample(other, np.asarray(one.stamps))
-    common = resample(one, np.asarray(at_same_times.stamps)) if len(at_same_times) else at_same_times
+    first_poses, second_poses = poses
+    at_same_times = resample(second_poses, np.asarray(first_poses.stamps))
+    common = resample(first_poses, np.asarray(at_same_times.stamps)) if len(at_same_times) else at_same_times
     if len(common) < MIN_COMMON_POSES:
         raise CalibrationError(
             f"{first} and {second} have {len(common)} common times; {MIN_COMMON_POSES} are needed",
@@ -151,8 +151,8 @@ def measure_rigid(recording: Recording, first: str, second: str) -> MeasuredMoun
         CalibrationError: The motion does not show the mount.
         CoframeError: A frame does not exist.
     """
-    one, other = (recording.trajectory(pair, max_gap=MAX_GAP) for pair in (first, second))
-    found = calibrate_rigid(one, other)
+    first_poses, second_poses = (recording.trajectory(pair, max_gap=MAX_GAP) for pair in (first, second))
+    found = calibrate_rigid(first_poses, second_poses)
     if len(found.hidden) or not found.is_rotation_observable:
         raise CalibrationError(
             f"the motion of {first} and {second} does not show the whole mount",
@@ -162,8 +162,8 @@ def measure_rigid(recording: Recording, first: str, second: str) -> MeasuredMoun
     for residuals in (found.rotation_residuals, found.translation_residuals):
         noise = max(float(np.median(residuals)) / _MEDIAN_OF_NORM, 1e-12)
         chi_squared = max(chi_squared, float(np.mean(residuals**2)) / (3.0 * noise**2))
-    names = (str(one.source), str(other.source))
-    return _measured(recording, f"{first} and {second}", found.transform, names, chi_squared, one)
+    names = (str(first_poses.source), str(second_poses.source))
+    return _measured(recording, f"{first} and {second}", found.transform, names, chi_squared, first_poses)
 
 
 def _measured(

@@ -156,12 +156,12 @@ class CameraModel:
         Raises:
             CameraError: The camera has no calibration for this image.
         """
-        flat, shape = _rows(points, 3)
+        rows, shape = _rows(points, 3)
         if rectified:
-            full = _to_homogeneous(flat @ self.r.T @ self._check_matrix(self.p, "P")[:, :3].T + self.p[:, 3])
+            full = _to_homogeneous(rows @ self.r.T @ self._check_matrix(self.p, "P")[:, :3].T + self.p[:, 3])
         else:
             k = self._check_matrix(self.k, "K")
-            full = self.lens.distort(flat) @ k[:2, :2].T + k[:2, 2]
+            full = self.lens.distort(rows) @ k[:2, :2].T + k[:2, 2]
         return ((full - self._offset) / self.binning).reshape(*shape, 2)
 
     def rays(self, pixels: ArrayLike, *, rectified: bool = False) -> Array:
@@ -177,8 +177,8 @@ class CameraModel:
         Raises:
             CameraError: The camera has no calibration for this image.
         """
-        flat, shape = _rows(pixels, 2)
-        full = flat * self.binning + self._offset
+        rows, shape = _rows(pixels, 2)
+        full = rows * self.binning + self._offset
         if rectified:
             ahead = (
                 np.column_stack([full, np.ones(len(full))]) @ np.linalg.inv(self._check_matrix(self.p, "P")[:, :3]).T
@@ -192,8 +192,8 @@ class CameraModel:
 
     def rectify(self, pixels: ArrayLike) -> Array:
         """Return the pixels of the rectified image for pixels of the raw image, shape (..., 2)."""
-        flat, shape = _rows(pixels, 2)
-        return self.without_baseline().project(self.rays(flat), rectified=True).reshape(*shape, 2)
+        rows, shape = _rows(pixels, 2)
+        return self.without_baseline().project(self.rays(rows), rectified=True).reshape(*shape, 2)
 
     def contains(self, pixels: ArrayLike) -> NDArray[np.bool_]:
         """Return which pixels (..., 2) are inside the image that the camera sends."""

@@ -90,30 +90,32 @@ class PolynomialLens(_BaseLens):
     def distort(self, points: Array) -> Array:
         """Return the places of points in the image plane."""
         with np.errstate(all="ignore"):
-            flat = points[:, :2] / points[:, 2:]
-            seen = (points[:, 2] > 0.0) & (np.hypot(flat[:, 0], flat[:, 1]) <= self.max_radius)
-            flat[~seen] = np.nan
-            return self.distort_flat(flat)
+            normalized_points = points[:, :2] / points[:, 2:]
+            seen = (points[:, 2] > 0.0) & (
+                np.hypot(normalized_points[:, 0], normalized_points[:, 1]) <= self.max_radius
+            )
+            normalized_points[~seen] = np.nan
+            return self.distort_flat(normalized_points)
 
     def rays(self, places: Array) -> Array:
         """Return the unit vectors to places of the image plane."""
-        flat = self.undistort_flat(places)
-        return _unit_vectors(np.concatenate([flat, np.ones((len(flat), 1))], axis=1))
+        normalized_points = self.undistort_flat(places)
+        return _unit_vectors(np.concatenate([normalized_points, np.ones((len(normalized_points), 1))], axis=1))
 
-    def distort_flat(self, flat: Array) -> Array:
+    def distort_flat(self, normalized_points: Array) -> Array:
         """Move places of an undistorted image plane (N, 2) as the lens does."""
         _, _, p1, p2, _, _, _, _, s1, s2, s3, s4, tilt_x, tilt_y = self._padded
-        x, y = flat.T
+        x, y = normalized_points.T
         square = x * x + y * y
         radial = self._radial(square)
-        moved = np.stack(
+        distorted = np.stack(
             [
                 x * radial + 2 * p1 * x * y + p2 * (square + 2 * x * x) + s1 * square + s2 * square**2,
                 y * radial + p1 * (square + 2 * y * y) + 2 * p2 * x * y + s3 * square + s4 * square**2,
             ],
             axis=1,
         )
-        return _by_homography(self._tilt, moved) if tilt_x or tilt_y else moved
+        return _by_homography(self._tilt, distorted) if tilt_x or tilt_y else distorted
 
     def undistort_flat(self, places: Array) -> Array:
         """Return the places of the undistorted image plane, NaN where there is none."""
@@ -124,22 +126,24 @@ class PolynomialLens(_BaseLens):
             radius = np.hypot(level[:, 0], level[:, 1])
             # The radial part alone grows with the radius, so it can be inverted; the rest is small.
             start = _inverse_of_table(lambda r: r * self._radial(r * r), radius, self.max_radius)
-            flat = level * np.where(radius > 0.0, start / radius, 1.0)[:, None]
+            normalized_points = level * np.where(radius > 0.0, start / radius, 1.0)[:, None]
             for _ in range(_NEWTON_STEPS):
-                flat = flat + self._newton_step(flat, places)
-            off = np.abs(self.distort_flat(flat) - places).max(axis=1)
-            outside = np.hypot(flat[:, 0], flat[:, 1]) > self.max_radius * (1.0 + 1e-9)
-            flat[outside | ~(off < _MAX_RESIDUAL * (1.0 + radius))] = np.nan
-            return flat
+                normalized_points = normalized_points + self._newton_step(normalized_points, places)
+            errors = np.abs(self.distort_flat(normalized_points) - places).max(axis=1)
+            outside = np.hypot(normalized_points[:, 0], normalized_points[:, 1]) > self.max_radius * (1.0 + 1e-9)
+            normalized_points[outside | ~(errors < _MAX_RESIDUAL * (1.0 + radius))] = np.nan
+            return normalized_points
 
-    def _newton_step(self, flat: Array, places: Array) -> Array:
-        step = _DERIVATIVE_STEP * np.maximum(1.0, np.abs(flat).max(axis=1))
+    def _newton_step(self, normalized_points: Array, places: Array) -> Array:
+        step = _DERIVATIVE_STEP * np.maximum(1.0, np.abs(normalized_points).max(axis=1))
         columns = []
         for axis in np.eye(2):
-            later, earlier = (self.distort_flat(flat + sign * step[:, None] * axis) for sign in (1.0, -1.0))
+            later, earlier = (
+                self.distort_flat(normalized_points + sign * step[:, None] * axis) for sign in (1.0, -1.0)
+            )
             columns.append((later - earlier) / (2.0 * step[:, None]))
         (a, c), (b, d) = columns[0].T, columns[1].T
-        u, v = (places - self.distort_flat(flat)).T
+        u, v = (places - self.distort_flat(normalized_points)).T
         determinant = a * d - b * c
         return np.asarray(np.stack([d * u - b * v, a * v - c * u], axis=1) / determinant[:, None])
 
@@ -167,9 +171,11 @@ class PolynomialLens(_BaseLens):
         (sin_x, sin_y), (cos_x, cos_y) = np.sin(self._padded[12:]), np.cos(self._padded[12:])
         about_x = np.array([[1.0, 0.0, 0.0], [0.0, cos_x, sin_x], [0.0, -sin_x, cos_x]])
         about_y = np.array([[cos_y, 0.0, -sin_y], [0.0, 1.0, 0.0], [sin_y, 0.0, cos_y]])
-        turn = about_y @ about_x
-        along = np.array([[turn[2, 2], 0.0, -turn[0, 2]], [0.0, turn[2, 2], -turn[1, 2]], [0.0, 0.0, 1.0]])
-        return np.asarray(along @ turn)
+        rotation = about_y @ about_x
+        along = np.array(
+            [[rotation[2, 2], 0.0, -rotation[0, 2]], [0.0, rotation[2, 2], -rotation[1, 2]], [0.0, 0.0, 1.0]]
+        )
+        return np.asarray(along @ rotation)
 
 
 class EquidistantLens(_BaseLens):
@@ -199,8 +205,8 @@ class EquidistantLens(_BaseLens):
             for _ in range(_NEWTON_STEPS):
                 angle = angle - (self._radius(angle) - radius) / self._slope(angle)
             angle[~(angle <= self.max_angle * (1.0 + 1e-12))] = np.nan
-            flat = places * np.where(radius > 0.0, np.sin(angle) / radius, 1.0)[:, None]
-        return np.concatenate([flat, np.cos(angle)[:, None]], axis=1)
+            normalized_points = places * np.where(radius > 0.0, np.sin(angle) / radius, 1.0)[:, None]
+        return np.concatenate([normalized_points, np.cos(angle)[:, None]], axis=1)
 
     @cached_property
     def max_angle(self) -> float:
@@ -284,17 +290,17 @@ class OmnidirectionalLens(_BaseLens):
         xi, *polynomial = self.coefficients
         length = np.linalg.norm(points, axis=1)
         lowest = xi if xi <= 1.0 else 1.0 / xi
-        flat = _divide(points, points[:, 2] + xi * length, points[:, 2] > -lowest * length)
-        return PolynomialLens(polynomial).distort_flat(flat)
+        normalized_points = _divide(points, points[:, 2] + xi * length, points[:, 2] > -lowest * length)
+        return PolynomialLens(polynomial).distort_flat(normalized_points)
 
     def rays(self, places: Array) -> Array:
         """Return the unit vectors to places of the image plane."""
         xi, *polynomial = self.coefficients
-        flat = PolynomialLens(polynomial).undistort_flat(places)
-        square = np.sum(flat * flat, axis=1)
+        normalized_points = PolynomialLens(polynomial).undistort_flat(places)
+        square = np.sum(normalized_points * normalized_points, axis=1)
         with np.errstate(invalid="ignore"):
             z = 1.0 - xi * (square + 1.0) / (xi + np.sqrt(1.0 + (1.0 - xi * xi) * square))
-        return _unit_vectors(np.concatenate([flat, z[:, None]], axis=1))
+        return _unit_vectors(np.concatenate([normalized_points, z[:, None]], axis=1))
 
 
 class FieldOfViewLens(_BaseLens):
@@ -306,11 +312,13 @@ class FieldOfViewLens(_BaseLens):
         """Return the places of points in the image plane."""
         (w,) = self.coefficients
         with np.errstate(all="ignore"):
-            flat = points[:, :2] / points[:, 2:]
-            flat[~(points[:, 2] > 0.0)] = np.nan
-            radius = np.hypot(flat[:, 0], flat[:, 1])
-            scale = np.arctan(2.0 * radius * np.tan(w / 2.0)) / (w * radius) if w else np.ones(len(flat))
-            return np.asarray(flat * np.where(radius > 0.0, scale, 2.0 * np.tan(w / 2.0) / w if w else 1.0)[:, None])
+            normalized_points = points[:, :2] / points[:, 2:]
+            normalized_points[~(points[:, 2] > 0.0)] = np.nan
+            radius = np.hypot(normalized_points[:, 0], normalized_points[:, 1])
+            scale = np.arctan(2.0 * radius * np.tan(w / 2.0)) / (w * radius) if w else np.ones(len(normalized_points))
+            return np.asarray(
+                normalized_points * np.where(radius > 0.0, scale, 2.0 * np.tan(w / 2.0) / w if w else 1.0)[:, None]
+            )
 
     def rays(self, places: Array) -> Array:
         """Return the unit vectors to places of the image plane."""
@@ -318,9 +326,11 @@ class FieldOfViewLens(_BaseLens):
         radius = np.hypot(places[:, 0], places[:, 1])
         with np.errstate(all="ignore"):
             scale = np.tan(radius * w) / (2.0 * radius * np.tan(w / 2.0)) if w else np.ones(len(places))
-            flat = places * np.where(radius > 0.0, scale, w / (2.0 * np.tan(w / 2.0)) if w else 1.0)[:, None]
-        flat[radius * abs(w) >= np.pi / 2.0] = np.nan
-        return _unit_vectors(np.concatenate([flat, np.ones((len(flat), 1))], axis=1))
+            normalized_points = (
+                places * np.where(radius > 0.0, scale, w / (2.0 * np.tan(w / 2.0)) if w else 1.0)[:, None]
+            )
+        normalized_points[radius * abs(w) >= np.pi / 2.0] = np.nan
+        return _unit_vectors(np.concatenate([normalized_points, np.ones((len(normalized_points), 1))], axis=1))
 
 
 def _divide(points: Array, by: Array, seen: NDArray[np.bool_]) -> Array:
@@ -335,8 +345,8 @@ def _unit_vectors(vectors: Array) -> Array:
 
 
 def _by_homography(matrix: Array, places: Array) -> Array:
-    moved = places @ matrix[:, :2].T + matrix[:, 2]
-    return np.asarray(moved[:, :2] / moved[:, 2:])
+    projected = places @ matrix[:, :2].T + matrix[:, 2]
+    return np.asarray(projected[:, :2] / projected[:, 2:])
 
 
 def _first_root(polynomial: np.polynomial.Polynomial) -> float:

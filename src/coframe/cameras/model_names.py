@@ -93,8 +93,8 @@ def canonical_name(name: str) -> str | None:
         >>> canonical_name("Plumb Bob"), canonical_name("kannala_brandt4"), canonical_name("ftheta")
         ('plumb_bob', 'equidistant', None)
     """
-    plain = re.sub(r"[^a-z0-9]", "", name.lower())
-    return "" if not plain or plain in _WITHOUT_DISTORTION else _SPELLINGS.get(plain)
+    normalized = re.sub(r"[^a-z0-9]", "", name.lower())
+    return "" if not normalized or normalized in _WITHOUT_DISTORTION else _SPELLINGS.get(normalized)
 
 
 def lens_of(name: str, coefficients: Sequence[float] = ()) -> Lens:

@@ -203,7 +203,7 @@ def _is_about_clocks(problem: str, findings: list[Finding]) -> bool:
 def _findings(path: Path) -> list[Finding]:
     """Return the doctor's warnings and errors about a recording, without their consequences."""
     reports = map(diagnose, observe_recording(path).values())
-    return [one for report in reports for one in report.findings if one.severity >= Severity.WARNING]
+    return [finding for report in reports for finding in report.findings if finding.severity >= Severity.WARNING]
 
 
 @bag.command(cls=ConvertCommand, short_help="Convert a recording to rosbag2's MCAP, or change its compression.")
@@ -287,8 +287,8 @@ def list_formats(kind: str | None, verbose: bool) -> None:
     for title, formats in kinds.items() if kind is None else [(kind, kinds[kind])]:
         if kind is None:
             print(f"{title}:")
-        for name, one in formats.items():
-            suffixes = f" ({', '.join(one.suffixes)})" if verbose and one is not None else ""
+        for name, format_ in formats.items():
+            suffixes = f" ({', '.join(format_.suffixes)})" if verbose and format_ is not None else ""
             print(one_line(f"{'  ' if kind is None else ''}{name}{suffixes}"))
 
 

@@ -71,11 +71,11 @@ class _EditCommand(Command):
             elif equals or not RULES[name].form:
                 rules.append((name, value))
             else:
-                taken = _length(name, words)
-                if not words or (taken == 1 and words[0].startswith("--")):
+                word_count = _length(name, words)
+                if not words or (word_count == 1 and words[0].startswith("--")):
                     ctx.fail(f"Option '--{name}' requires a value: {RULES[name].form}.")
-                rules.append((name, _join_words(words[:taken])))
-                del words[:taken]
+                rules.append((name, _join_words(words[:word_count])))
+                del words[:word_count]
         ctx.meta[_RULES_KEY] = rules
         return super().parse_args(ctx, rest)
 

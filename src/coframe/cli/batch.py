@@ -181,15 +181,15 @@ def batch(
         fail(f"--on: unknown engine {on!r}. Engines: {', '.join(ENGINES)}", code=2)
     with run_to_completion():
         answers = _run(bags, query, output, on, workers)
-        bad = [one for one in answers if one.error]
-        for one in answers:
-            _print_problems(one, "value" if columns else "transform")
+        bad = [result for result in answers if result.error]
+        for result in answers:
+            _print_problems(result, "value" if columns else "transform")
             if isinstance(query, TableQuery) and max_gap is None:
-                _print_skipped_poses(one, pose_names(query))
-        kept = sum(one.kept for one in answers)
+                _print_skipped_poses(result, pose_names(query))
+        kept = sum(result.kept for result in answers)
         reused = f", {kept} of them from an earlier run" if kept else ""
         good = len(answers) - len(bad)
-        poses = sum(one.poses for one in answers)
+        poses = sum(result.poses for result in answers)
         rows = count(poses, "row" if columns else "pose")
         print(f"{printable(str(output))}: {rows} from {count(good, 'recording')}{reused}")
         if bad:

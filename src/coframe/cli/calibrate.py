@@ -208,13 +208,13 @@ def _report(
 def _as_text(calibration: RigidCalibration, names: tuple[str, str]) -> str:
     deviations = calibration.deviations
     place = ", ".join(f"{1e3 * value:.3g}" for value in deviations[:3])
-    turn = ", ".join(f"{degrees(value):.2g}" for value in deviations[3:])
+    rotation = ", ".join(f"{degrees(value):.2g}" for value in deviations[3:])
     r, t = (
         float(np.sqrt(np.mean(part**2))) for part in (calibration.rotation_residuals, calibration.translation_residuals)
     )
     lines = [
         f"{names[0]} -> {names[1]}: {_numbers(calibration.transform)}",
-        f"standard deviations: {place} mm; {turn} deg",
+        f"standard deviations: {place} mm; {rotation} deg",
         f"time offset: {calibration.time_offset * 1e3:+.3f} ms +- {calibration.time_deviation * 1e3:.2g} ms"
         if isfinite(calibration.time_deviation)
         else f"time offset: {calibration.time_offset * 1e3:+.3f} ms (given)",

@@ -211,11 +211,11 @@ def _warn_of_constant_differences(name: str, result: Comparison) -> None:
         )
     if (offset := result.body_offset) is not None:
         x, y, z = offset.transform.translation.tolist()
-        turned = math.degrees(float(np.linalg.norm(offset.transform.as_rotvec())))
+        rotation_angle = math.degrees(float(np.linalg.norm(offset.transform.as_rotvec())))
         numbers = _body_offset_numbers(offset.transform)
         (t_before, t_after), (r_before, r_after) = offset.translation_rmse, offset.rotation_rmse
         warn(
-            f"{about}the frames of both trajectories differ by a constant pose of {turned:.4g} deg and "
+            f"{about}the frames of both trajectories differ by a constant pose of {rotation_angle:.4g} deg and "
             f"{math.hypot(x, y, z):.4g} m: with it, the rotation error is {_to_str(math.degrees(r_after))} deg instead "
             f"of {_to_str(math.degrees(r_before))} deg, and the translation error {_to_str(t_after)} m instead of "
             f"{_to_str(t_before)} m (rmse). To remove it: --body-offset {numbers}"

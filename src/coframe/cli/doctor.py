@@ -380,7 +380,7 @@ def _reports(
     """Return the report about each namespace of a recording."""
     with reading_progress() as progress:
         observations = observe_chosen(bag, choice, cache=cache, progress=progress)
-    return {name: diagnose(one, ignore=ignored_codes) for name, one in observations.items()}
+    return {name: diagnose(observation, ignore=ignored_codes) for name, observation in observations.items()}
 
 
 def _examine(path: Path, ignored_codes: list[str], cache: PositiveDuration) -> dict[str, Report]:

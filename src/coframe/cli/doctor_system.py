@@ -27,7 +27,7 @@ def examine_system(domain: int | None, listen: float, *, as_json: bool) -> None:
     report = collect(domain, listen=listen)
     advice = advise(report)
     if as_json:
-        print(json.dumps({**_as_data(report), "findings": [dataclasses.asdict(one) for one in advice]}, indent=2))
+        print(json.dumps({**_as_data(report), "findings": [dataclasses.asdict(item) for item in advice]}, indent=2))
     else:
         console = report_console()
         for title, lines in sections(report):
@@ -35,7 +35,7 @@ def examine_system(domain: int | None, listen: float, *, as_json: bool) -> None:
             for line in lines:
                 console.print(f"  {one_line(line)}", markup=False, highlight=False)
         _print_advice(advice)
-    raise Exit(1 if any(one.severity != "note" for one in advice) else 0)
+    raise Exit(1 if any(item.severity != "note" for item in advice) else 0)
 
 
 def _as_data(report: SystemReport) -> dict[str, Any]:
@@ -48,9 +48,9 @@ def _print_advice(advice: list[SystemFinding]) -> None:
     console.print("Findings", style="bold")
     if not advice:
         console.print("  none")
-    for one in advice:
+    for item in advice:
         console.print(
-            f"  {one.severity}: {one_line(one.text)}", style=_STYLES[one.severity], markup=False, highlight=False
+            f"  {item.severity}: {one_line(item.text)}", style=_STYLES[item.severity], markup=False, highlight=False
         )
-        if one.action:
-            console.print(f"    {one_line(one.action)}", markup=False, highlight=False)
+        if item.action:
+            console.print(f"    {one_line(item.action)}", markup=False, highlight=False)

@@ -129,8 +129,10 @@ def frames(
             choice = TransformChoice(namespace, tf_topic, tf_static_topic, prefix, keep)
             with reading_progress() as progress:
                 observations = observe_chosen(bag, choice, progress=progress)
-            forests = {name: build_forest(one) for name, one in observations.items()}
-            for problem in dict.fromkeys(problem for one in observations.values() for problem in one.unread):
+            forests = {name: build_forest(observation) for name, observation in observations.items()}
+            for problem in dict.fromkeys(
+                problem for observation in observations.values() for problem in observation.unread
+            ):
                 warn(problem)
             if not any(forest.frames for forest in forests.values()):
                 fail(f"{bag} contains no transforms", "Use --tf-topic and --tf-static-topic to select other topics.")

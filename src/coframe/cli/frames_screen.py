@@ -147,10 +147,10 @@ def _show(console: Console, steps: Iterator[tuple[Forest, list[Change]]]) -> Non
             now = time.monotonic()
             log = [*log, *((now, _line(change), change) for change in news)][-_MAX_CHANGES:]
             changed = {change.frame: change.kind for at, _, change in log if now - at < _HIGHLIGHT_TIME}
-            named = [line for _, line, _ in log[-_LISTED_CHANGES:]]
+            change_lines = [line for _, line, _ in log[-_LISTED_CHANGES:]]
             # Four more lines: the header, the summary, the line about more rows, and an empty one.
-            room = console.height - len(named) - 4
-            live.update(Group(tree(forest, changed, max(room, 2)), *named), refresh=True)
+            room = console.height - len(change_lines) - 4
+            live.update(Group(tree(forest, changed, max(room, 2)), *change_lines), refresh=True)
 
 
 def _print_changes(steps: Iterator[tuple[Forest, list[Change]]]) -> None:

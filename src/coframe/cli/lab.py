@@ -107,14 +107,14 @@ def new(folder: Path, variant: int | None, roster: Path | None, as_zip: bool, la
             raise _MisuseError("--variant and --roster exclude each other", hint="The variants are in the roster.")
         if roster is not None:
             students = read_roster(roster)
-            places = create_class(folder, students, as_zip=as_zip, language=chosen)
+            places = create_class(folder, students, as_zip=as_zip, language=chosen_language)
             for student, place in zip(students.students, places, strict=True):
                 print(f"created {printable(str(place))} for {printable(student.name)}, variant {student.variant}")
             return
-        for path in create_folder(folder, variant, chosen):
-            print(chosen.text(f"created {printable(str(path))}"))
+        for path in create_folder(folder, variant, chosen_language):
+            print(chosen_language.text(f"created {printable(str(path))}"))
         command = f"coframe lab run {shlex.quote(printable(str(folder)))}"
-        print(chosen.text(f"Next: read {printable(str(folder / 'README.md'))}, then run: {command}"))
+        print(chosen_language.text(f"Next: read {printable(str(folder / 'README.md'))}, then run: {command}"))
 
 
 @lab.command(short_help="Run the nodes of a folder with a simulated robot.")
@@ -243,7 +243,7 @@ def check(
         else:
             _check_options_of_one(for_class, no_roster_variants=no_roster_variants)
         if problem := isolation_problem():
-            warn(spoken.text(problem))
+            warn(chosen_language.text(problem))
         if everyone:
             grade_class(
                 ClassOptions(
@@ -254,16 +254,16 @@ def check(
             return
         check_outputs((record, gradescope, classroom), student)
         try:
-            with item_progress("checking", len(chosen)) as progress:
-                report = check_folder(student, variant=variant, only=chosen, record=record, progress=progress)
+            with item_progress("checking", len(criteria)) as progress:
+                report = check_folder(student, variant=variant, only=criteria, record=record, progress=progress)
         except CourseError as error:
-            _write_reports(formats.ungraded_report(str(student), str(error)), formatted, spoken)
+            _write_reports(formats.ungraded_report(str(student), str(error)), formatted, chosen_language)
             raise
-        _write_reports(report, formatted, spoken)
+        _write_reports(report, formatted, chosen_language)
         if as_json:
             print(json.dumps(report, indent=2))
             return
-        for line in formats.text(report, spoken):
+        for line in formats.text(report, chosen_language):
             print(printable(line))
 
 
@@ -316,8 +316,8 @@ def autograder(platform: str, output: Path, wheel: Path, variant: int | None, la
 
     Example: coframe lab autograder gradescope -o autograder --wheel dist/coframe-1.0-cp312-cp312-linux_x86_64.whl
     """
-    with run_to_completion(), _in_language(language) as chosen:
-        for path in write_autograder(platform, output, wheel, variant, chosen):
+    with run_to_completion(), _in_language(language) as chosen_language:
+        for path in write_autograder(platform, output, wheel, variant, chosen_language):
             print(f"created {printable(str(path))}")
         if needs_newest_glibc(wheel):
             warn(
@@ -366,12 +366,20 @@ def break_(
         chosen = draw(seed or "") if number is None else number
         words = f"--random {shlex.quote(seed or '')}" if number is None else f"{number}"
         if answer is not None:
-            _print_verdict(chosen, answer, spoken)
+            _print_verdict(fault_number, answer, chosen_language)
             return
-        print(spoken.text(f"System {words} is running in this ROS domain. What is wrong with it? Stop it with Ctrl-C."))
-        print(spoken.text(f'Then answer with: coframe lab break {words} --answer "FAULT", where FAULT is one of:'))
-        print(f"  {_fault_names(spoken)}", flush=True)
-        _run(FAULTS[chosen - 1].programs, seconds, browser=browser, port=port)
+        print(
+            chosen_language.text(
+                f"System {words} is running in this ROS domain. What is wrong with it? Stop it with Ctrl-C."
+            )
+        )
+        print(
+            chosen_language.text(
+                f'Then answer with: coframe lab break {words} --answer "FAULT", where FAULT is one of:'
+            )
+        )
+        print(f"  {_fault_names(chosen_language)}", flush=True)
+        _run(FAULTS[fault_number - 1].programs, seconds, browser=browser, port=port)
 
 
 @lab.command(short_help="Read the handbook of the course.")
@@ -397,9 +405,9 @@ def handbook(
 
     Example: coframe lab handbook -o handbook
     """
-    with run_to_completion(), _in_language(language, recorded_language(_folder(None))) as spoken:
+    with run_to_completion(), _in_language(language, recorded_language(_folder(None))) as chosen_language:
         if output is not None:
-            _write_handbook(output, chapter, spoken, slides=slides, browser=browser)
+            _write_handbook(output, chapter, chosen_language, slides=slides, browser=browser)
             return
         if slides:
             raise _MisuseError("--slides writes a file", hint="Add -o FOLDER.")
@@ -411,13 +419,13 @@ def handbook(
         file = contents() if chapter is None else found[chapter].file
         console = report_console()
         console.print(
-            Markdown(terminal_text(file, spoken), hyperlinks=False), width=min(console.width, _HANDBOOK_WIDTH)
+            Markdown(terminal_text(file, chosen_language), hyperlinks=False), width=min(console.width, _HANDBOOK_WIDTH)
         )
         if chapter is None:
             hint = (
                 "Read a chapter: coframe lab handbook 1. With images, in the browser: coframe lab handbook -o handbook"
             )
-            print(spoken.text(hint))
+            print(chosen_language.text(hint))
 
 
 def _write_handbook(folder: Path, chapter: int | None, language: Language, *, slides: bool, browser: bool) -> None:

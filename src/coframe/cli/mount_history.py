@@ -105,15 +105,15 @@ def print_history(mounts: list[MeasuredMount], *, as_json: bool) -> bool:
     series: dict[tuple[str, str, str], list[MeasuredMount]] = {}
     for mount in sorted(mounts, key=lambda each: each.start):
         series.setdefault(mount.name, []).append(mount)
-    movements = [movement for one in series.values() for movement in find_movements(one)]
+    movements = [movement for history in series.values() for movement in find_movements(history)]
     if as_json:
         data = {"mounts": [_as_dict(mount) for mount in mounts], "movements": [_movement_dict(m) for m in movements]}
         print(json.dumps(data))
         return any(movement.is_confirmed for movement in movements)
-    for (parent, child, sources), one in series.items():
+    for (parent, child, sources), history in series.items():
         print(printable(f"{parent} -> {child}, by {sources}:"))
-        for mount in one:
-            print(printable(f"  {_day(mount)}  {_line(mount, one[0])}  {PurePath(mount.recording).name}"))
+        for mount in history:
+            print(printable(f"  {_day(mount)}  {_line(mount, history[0])}  {PurePath(mount.recording).name}"))
     for movement in movements:
         print(printable(_sentence(movement)))
     if not movements:

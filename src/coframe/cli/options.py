@@ -73,12 +73,12 @@ class Duration(int):
             click.BadParameter: The text is not a duration, or is out of range for this class.
         """
         text = str(text)
-        bare = text.strip().removeprefix("+")
-        sign, bare = (-1, bare[1:]) if bare.startswith("-") else (1, bare)
-        if _BARE_NUMBER.fullmatch(bare):
-            bare += "s"
+        unsigned = text.strip().removeprefix("+")
+        sign, unsigned = (-1, unsigned[1:]) if unsigned.startswith("-") else (1, unsigned)
+        if _BARE_NUMBER.fullmatch(unsigned):
+            unsigned += "s"
         try:
-            duration = super().__new__(cls, sign * duration_ns(bare))
+            duration = super().__new__(cls, sign * duration_ns(unsigned))
         except (ValueError, TypeError):
             raise click.BadParameter(f"{text[:60]!r} is not a duration. {DURATIONS}") from None
         duration._text = text

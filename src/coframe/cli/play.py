@@ -299,6 +299,6 @@ def _handle_key(player: Player, key: str | None) -> None:
 
 def _line(player: Player) -> Text:
     recording = player.recording
-    passed, whole = (player.position - recording.received_start) / SECOND, recording.duration / SECOND
+    elapsed, duration = (player.position - recording.received_start) / SECOND, recording.duration / SECOND
     state = "paused" if player.clock.paused else f"rate {player.clock.rate:.3g}"
-    return Text(f"{passed:.1f} of {whole:.1f} s, {count(player.played, 'message')}, {state}")
+    return Text(f"{elapsed:.1f} of {duration:.1f} s, {count(player.played, 'message')}, {state}")

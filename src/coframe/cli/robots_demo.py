@@ -173,7 +173,10 @@ class _View:
             publishers = {robot.name: robot.publishers for robot in self._relay.robots}
         else:
             every = self._ros.publishers()
-            publishers = {name: [one for one in every if one.node.startswith(f"/{name}/")] for name in self._names}
+            publishers = {
+                name: [publisher for publisher in every if publisher.node.startswith(f"/{name}/")]
+                for name in self._names
+            }
         return [
             _Row(name, publisher_state(publishers[name]), publishers[name], ended.get(name)) for name in self._names
         ]
@@ -196,9 +199,9 @@ class _View:
         for row in self.rows():
             own = [frame for frame in frames if frame.name.startswith(self._frame(row.name, ""))]
             rate = next((frame.rate for frame in own if frame.name == self._frame(row.name, "base_link")), 0.0)
-            moving = [publisher for publisher in row.publishers if not publisher.static]
-            age = min((publisher.age for publisher in moving), default=math.nan)
-            lag = next((publisher.lag for publisher in moving if publisher.lag is not None), None)
+            moving_publishers = [publisher for publisher in row.publishers if not publisher.static]
+            age = min((publisher.age for publisher in moving_publishers), default=math.nan)
+            lag = next((publisher.lag for publisher in moving_publishers if publisher.lag is not None), None)
             stale = row.ended is not None or row.state in {"gone", "stale"}
             table.add_row(
                 Text(row.name, style="dim" if stale else "bold"),

@@ -42,7 +42,7 @@ def tree_table(buffer: Buffer, reference: str, liveness: LivenessTracker, *, lim
     decimals = 3 if wide else 2
     position, angles = decimals + 3, decimals + 2  # characters per number
     axes = " ".join(f"{axis:>{position}}" for axis in "xyz")
-    turns = " ".join(f"{turn:>{angles}}" for turn in ("roll", "pit", "yaw"))
+    turns = " ".join(f"{angle_name:>{angles}}" for angle_name in ("roll", "pit", "yaw"))
     for column in ("rate Hz", "age ms", axes, turns):
         table.add_column(column, justify="right", no_wrap=True)
     now = time.time_ns()

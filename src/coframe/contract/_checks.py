@@ -94,14 +94,14 @@ def _pose_problems(requirement: TransformRequirement, edge: Edge) -> Iterator[st
     poses = edge.poses(np.arange(edge.count))
     meters, radians = requirement.tolerance
     if requirement.xyz is not None:
-        off = float(np.linalg.norm(poses[:, :3] - np.array(requirement.xyz), axis=1).max())
-        if not off <= meters:
-            yield f"the position is off by {_length(off)}; the tolerance is {_length(meters)}"
+        distance = float(np.linalg.norm(poses[:, :3] - np.array(requirement.xyz), axis=1).max())
+        if not distance <= meters:
+            yield f"the position is off by {_length(distance)}; the tolerance is {_length(meters)}"
     if requirement.rpy is not None:
         turns = multiply(inverse(from_rpy(np.array(requirement.rpy))), poses[:, 3:])
-        off = float(np.linalg.norm(to_rotvec(turns), axis=1).max())
-        if not off <= radians:
-            yield f"the rotation is off by {_angle(off)}; the tolerance is {_angle(radians)}"
+        distance = float(np.linalg.norm(to_rotvec(turns), axis=1).max())
+        if not distance <= radians:
+            yield f"the rotation is off by {_angle(distance)}; the tolerance is {_angle(radians)}"
 
 
 def _topic(requirement: TopicRequirement, measurement: Measurement) -> Result:
@@ -221,11 +221,11 @@ def _clock_words(clock: str) -> str:
 def _frames(contract: Contract, measurement: Measurement) -> Iterator[Result]:
     if contract.other_frames:
         return
-    named: dict[str, set[str]] = {}
+    required_frames: dict[str, set[str]] = {}
     for each in contract.transforms:
-        named.setdefault(each.namespace, set()).update((each.parent, each.child))
+        required_frames.setdefault(each.namespace, set()).update((each.parent, each.child))
     for name, observation in measurement.observations.items():
-        others = sorted(set(observation.frames) - named.get(name, set()))
+        others = sorted(set(observation.frames) - required_frames.get(name, set()))
         problem = f"the contract does not name {count(len(others), 'frame')}: {join_names(others)}"
         yield Result("frames", f"other frames of {name or '/'}", (problem,) if others else ())
 

@@ -107,5 +107,5 @@ def check_recording(
         measurement = measure_recording(path, choice, progress=progress)
     except RecordingError as error:
         return Verdict.of_error(name, error)
-    unread = dict.fromkeys(each for one in measurement.observations.values() for each in one.unread)
-    return Verdict(name, tuple(check_contract(contract, measurement)), unread=tuple(unread))
+    unread_parts = dict.fromkeys(each for one in measurement.observations.values() for each in one.unread)
+    return Verdict(name, tuple(check_contract(contract, measurement)), unread=tuple(unread_parts))

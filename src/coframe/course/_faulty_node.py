@@ -80,8 +80,8 @@ def _add_slash(transform: Any) -> None:
 
 
 def _use_millimeters(transform: Any) -> None:
-    moved = transform.transform.translation
-    moved.x, moved.y, moved.z = 1000.0 * moved.x, 1000.0 * moved.y, 1000.0 * moved.z
+    translation = transform.transform.translation
+    translation.x, translation.y, translation.z = 1000.0 * translation.x, 1000.0 * translation.y, 1000.0 * translation.z
 
 
 def _exchange_frames(transform: Any) -> None:

@@ -214,8 +214,8 @@ class StudentProgram:
         """Return the exception of the last traceback, with the first line of its message, or "" if there is none."""
         _, found, traceback = self._end_of_output(40_000).rpartition("Traceback (most recent call last):")
         lines = traceback.splitlines()[1:] if found else []
-        named = (line for line in lines if _EXCEPTION.match(line))
-        return next(named, "")
+        exception_lines = (line for line in lines if _EXCEPTION.match(line))
+        return next(exception_lines, "")
 
     def _end_of_output(self, size: int) -> str:
         try:

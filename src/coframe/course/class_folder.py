@@ -133,11 +133,11 @@ def _submission(attempts: list[_Attempt], extract: _Extraction) -> Submission:
 def _join_loose_files(attempts: list[_Attempt]) -> list[_Attempt]:
     """Return the attempts, with loose files that Canvas delivers one by one joined to one attempt."""
     archives = [attempt for attempt in attempts if not attempt.order[0] or _is_archive(attempt.paths[0])]
-    loose: dict[int, list[_Attempt]] = {}
+    loose_files: dict[int, list[_Attempt]] = {}
     for attempt in attempts:
         if attempt not in archives:
-            loose.setdefault(attempt.order[0], []).append(attempt)
-    for number, files in loose.items():
+            loose_files.setdefault(attempt.order[0], []).append(attempt)
+    for number, files in loose_files.items():
         newest = sorted(files, key=lambda attempt: attempt.order)
         paths = tuple(path for attempt in newest for path in attempt.paths)
         archives.append(_Attempt((number, 0, ""), paths, any(attempt.is_late for attempt in files)))
@@ -217,11 +217,11 @@ class _Extraction:
     def _copy(self, path: Path, target: Path) -> None:
         match = _CANVAS.fullmatch(path.name)
         name = Path(match["file"]) if match else Path(path.name)
-        plain = name.with_name(_VERSION.sub("", name.stem) + name.suffix)
+        plain_name = name.with_name(_VERSION.sub("", name.stem) + name.suffix)
         try:
             if path.is_symlink():
                 raise CourseError(f"{path.name} is a link.", hint="Replace it with a file.")
-            (target / plain).write_bytes(read_regular(path, MAX_EXTRACTED))
+            (target / plain_name).write_bytes(read_regular(path, MAX_EXTRACTED))
         except OSError as error:
             raise CourseError(f"{path.name} cannot be read: {error.strerror}.", hint="Replace the file.") from None
 

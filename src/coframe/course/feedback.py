@@ -105,8 +105,8 @@ def _figures(criterion: dict[str, Any], shown_figures: set[int], language: Langu
 def _bar(earned: float, points: float, language: Language) -> str:
     """Return a picture of a share of points, as SVG."""
     width = _BAR_WIDTH * min(1.0, max(0.0, earned / points)) if points else 0.0
-    rest = f'<rect x="{width:.1f}" width="{_BAR_WIDTH - width:.1f}" height="{_BAR_HEIGHT}" fill="{_ORANGE}"/>'
-    done = f'<rect width="{width:.1f}" height="{_BAR_HEIGHT}" fill="{_BLUE}"/>'
+    missing_bar = f'<rect x="{width:.1f}" width="{_BAR_WIDTH - width:.1f}" height="{_BAR_HEIGHT}" fill="{_ORANGE}"/>'
+    earned_bar = f'<rect width="{width:.1f}" height="{_BAR_HEIGHT}" fill="{_BLUE}"/>'
     label = html.escape(language.text(f"{earned:g} of {points:g} points"))
     size = f'width="{_BAR_WIDTH}" height="{_BAR_HEIGHT}"'
-    return f'<svg role="img" aria-label="{label}" {size}>{done}{rest}</svg>'
+    return f'<svg role="img" aria-label="{label}" {size}>{earned_bar}{missing_bar}</svg>'

@@ -64,10 +64,14 @@ def _gradebook_row(columns: list[str], grade: StudentGrade) -> dict[str, Any]:
 
 def _worksheet_columns(roster: Roster) -> tuple[str, str] | None:
     """Return the columns for the grade and the feedback in a grading worksheet, or None if the roster is none."""
-    named = {column.strip().casefold(): column for column in roster.columns}
-    grade = next((named[name] for name in _GRADE_COLUMNS if name in named), "")
-    is_worksheet = grade and any(name in named for name in _IDENTIFIERS)
-    return (grade, next((named[name] for name in _FEEDBACK_COLUMNS if name in named), "")) if is_worksheet else None
+    columns_by_name = {column.strip().casefold(): column for column in roster.columns}
+    grade = next((columns_by_name[name] for name in _GRADE_COLUMNS if name in columns_by_name), "")
+    is_worksheet = grade and any(name in columns_by_name for name in _IDENTIFIERS)
+    return (
+        (grade, next((columns_by_name[name] for name in _FEEDBACK_COLUMNS if name in columns_by_name), ""))
+        if is_worksheet
+        else None
+    )
 
 
 def canvas_table(roster: Roster, grades: Iterable[StudentGrade], column: str = ASSIGNMENT) -> Table:

@@ -114,7 +114,7 @@ def _is_possible(words: Sequence[str]) -> bool:
         with Confinement(folder, Path(name), (), has_namespaces=True) as confinement:
             command = [*words, *confinement.command(home, "-I", "-S", "-c", "")]
             environment = confinement.environment(home)
-            tried = subprocess.run(  # noqa: S603 - a tool of the system, and this Python
+            result = subprocess.run(  # noqa: S603 - a tool of the system, and this Python
                 command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, check=False
             )
-    return tried.returncode == 0
+    return result.returncode == 0

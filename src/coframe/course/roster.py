@@ -93,8 +93,8 @@ class Roster(NamedTuple):
             by_number = [each for each in self.students if each.participant == match["number"]]
             if len(by_number) == 1:
                 return by_number[0]
-        wanted = _letters(match["name"] if match else submission)
-        found = [each for each in self.students if wanted in _identities(each)]
+        letters = _letters(match["name"] if match else submission)
+        found = [each for each in self.students if letters in _identities(each)]
         return found[0] if len(found) == 1 else None
 
 
@@ -150,14 +150,14 @@ def _delimiter(text: str) -> str:
 
 def _find_columns(columns: Iterable[str]) -> dict[str, str]:
     """Return the column of each kind of content."""
-    named = {column.strip().casefold(): column for column in columns}
+    columns_by_name = {column.strip().casefold(): column for column in columns}
     found = {
-        kind: next(named[name] for name in names if name in named)
+        kind: next(columns_by_name[name] for name in names if name in columns_by_name)
         for kind, names in _COLUMNS.items()
-        if any(name in named for name in names)
+        if any(name in columns_by_name for name in names)
     }
-    if "id" in named:  # In a gradebook of Canvas, it is the number on the platform.
-        found.setdefault("participant" if "student" in named else "number", named["id"])
+    if "id" in columns_by_name:  # In a gradebook of Canvas, it is the number on the platform.
+        found.setdefault("participant" if "student" in columns_by_name else "number", columns_by_name["id"])
     return found
 
 
@@ -198,8 +198,8 @@ def _key(text: str) -> str:
         >>> _key("Jürgen Müßig")
         'jurgen_mussig'
     """
-    plain = unicodedata.normalize("NFKD", text.replace("ß", "ss")).encode("ascii", "ignore").decode()
-    return re.sub(r"[^a-z0-9]+", "_", plain.casefold()).strip("_")[:_MAX_KEY]
+    ascii_text = unicodedata.normalize("NFKD", text.replace("ß", "ss")).encode("ascii", "ignore").decode()
+    return re.sub(r"[^a-z0-9]+", "_", ascii_text.casefold()).strip("_")[:_MAX_KEY]
 
 
 def _letters(text: str) -> str:

@@ -107,5 +107,7 @@ def _tokens(text: str) -> list[tuple[str, bool]]:
 
 def _sequences(tokens: list[tuple[str, bool]]) -> list[int]:
     """Return the hash of each sequence of tokens, in which names and texts are replaced by placeholders."""
-    plain = ["name" if is_name else "text" if text[:1] in "\"'" else text for text, is_name in tokens]
-    return [hash(tuple(plain[start : start + _LENGTH])) for start in range(len(plain) - _LENGTH + 1)]
+    normalized_tokens = ["name" if is_name else "text" if text[:1] in "\"'" else text for text, is_name in tokens]
+    return [
+        hash(tuple(normalized_tokens[start : start + _LENGTH])) for start in range(len(normalized_tokens) - _LENGTH + 1)
+    ]

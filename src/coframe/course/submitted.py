@@ -31,7 +31,7 @@ def check_submitted(file: Path) -> Path:
 
     Raises:
         CourseError: It is not a regular file; it is a link to a file outside its folder; it has a hard link outside its
-            folder, so it may belong to someone else; or it is too large.
+            folder, so it may belong to another user; or it is too large.
     """
     folder = file.parent.resolve()
     real = Path(os.path.realpath(file))  # does not raise for a loop of links, which cannot be opened
@@ -47,7 +47,7 @@ def check_submitted(file: Path) -> Path:
     if status.st_nlink > 1 and status.st_nlink > _count_hard_links(folder, status):
         raise CourseError(
             f"{file.name} is a hard link: another name of the same file is outside the folder, so the file may "
-            "belong to someone else.",
+            "belong to another user.",
             hint="Replace the link with a copy.",
         )
     return real

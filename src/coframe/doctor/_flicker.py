@@ -67,9 +67,9 @@ def flicker(edge: Edge) -> Flicker | None:
     away = jumps[:-1][np.diff(jumps) <= _MAX_RUN]
     # The difference between the row before a jump and the row after the next one.
     left = np.linalg.norm(edge.values[away, :3] - edge.values[back + 1, :3], axis=1)
-    turned = angles_between(edge.rotations[away], edge.rotations[back + 1])
+    angles = angles_between(edge.rotations[away], edge.rotations[back + 1])
     distance, angle = edge.distances[away], edge.rotation_steps[away]
-    returned = (distance > 2.0 * left + _DISTANCE_RESOLUTION) | (angle > 2.0 * turned + _ANGLE_RESOLUTION)
+    returned = (distance > 2.0 * left + _DISTANCE_RESOLUTION) | (angle > 2.0 * angles + _ANGLE_RESOLUTION)
     # Most jumps must be reversed by the next one: a robot that is moved to a new pose a few times does not flicker.
     if np.count_nonzero(returned) < max(_MIN_JUMPS, len(jumps) // 2):
         return None
@@ -113,16 +113,16 @@ def _typical_step(edge: Edge) -> tuple[float, float]:
     twice the rate of the other. With a larger ratio, half of the rows follow a row of the same publisher.
     """
     rows = _sample(edge.count - _MAX_REVERSALS)
-    moved = [
+    distances = [
         np.linalg.norm(edge.values[rows + rotation, :3] - edge.values[rows, :3], axis=1)
         for rotation in range(1, _MAX_REVERSALS + 1)
     ]
-    turned = [
+    angles = [
         angles_between(edge.rotations[rows], edge.rotations[rows + rotation])
         for rotation in range(1, _MAX_REVERSALS + 1)
     ]
-    return float(np.quantile(moved, _MIN_ALTERNATION_SHARE, axis=1).min()), float(
-        np.quantile(turned, _MIN_ALTERNATION_SHARE, axis=1).min()
+    return float(np.quantile(distances, _MIN_ALTERNATION_SHARE, axis=1).min()), float(
+        np.quantile(angles, _MIN_ALTERNATION_SHARE, axis=1).min()
     )
 
 

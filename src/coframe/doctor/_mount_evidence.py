@@ -77,22 +77,22 @@ def gravity_contradictions(observation: Observation) -> Iterator[Contradiction]:
             return float(np.arccos(np.clip(up[2], -1.0, 1.0)))
 
         turns = [edge.rotations[-1] for edge in chain]
-        off = tilt_angle(turns)
-        if off < _MIN_WRONG_TILT:
+        tilt = tilt_angle(turns)
+        if tilt < _MIN_WRONG_TILT:
             continue
         for number, edge in enumerate(chain):
             if edge.angle < _MIN_ROTATION:
                 continue  # The sign of the acceleration is more likely to be wrong than a mount of zeros.
-            tried = [
+            candidates = [
                 (tilt_angle([*turns[:number], correction.pose[3:], *turns[number + 1 :]]), correction)
                 for correction in _distinct_corrections(edge)
             ]
-            right = [(angle, correction) for angle, correction in tried if angle < _MAX_RIGHT_TILT]
+            right = [(angle, correction) for angle, correction in candidates if angle < _MAX_RIGHT_TILT]
             if 0 < len(right) <= _MAX_CANDIDATES:
                 angle, best = right[0]
                 readings = " or ".join(f"if {one.reading}" for _, one in right)
                 text = (
-                    f"at rest, the acceleration of {imu.topic} points {degrees(off):.3g} degrees away from up in "
+                    f"at rest, the acceleration of {imu.topic} points {degrees(tilt):.3g} degrees away from up in "
                     f"{chain[-1].parent}; it points up within {degrees(angle):.2g} degrees {readings}"
                 )
                 yield Contradiction(edge, text, best.fix, best.pose)
@@ -104,10 +104,10 @@ def points_contradictions(observation: Observation) -> Iterator[Contradiction]:
     for sensor in observation.sensors:
         chain = observation.mounts(sensor.frame)
         scans = _window(sensor.points)
-        moving = [edge for edge in observation.path(sensor.frame) if edge not in chain]
-        if not chain or len(scans) < _MIN_SCANS or not any(not edge.constant for edge in moving):
+        moving_edges = [edge for edge in observation.path(sensor.frame) if edge not in chain]
+        if not chain or len(scans) < _MIN_SCANS or not any(not edge.constant for edge in moving_edges):
             continue
-        found = (_find_by_overlap(sensor.topic, chain, moving, scans, share) for share in _CELL_SIZES)
+        found = (_find_by_overlap(sensor.topic, chain, moving_edges, scans, share) for share in _CELL_SIZES)
         yield from islice((one for one in found if one is not None), 1)
 
 
@@ -126,11 +126,11 @@ def _find_by_overlap(
 
     def remaining(mounts: Sequence[Array]) -> float:
         """Return the share of the cells of all scans that remain when the scans are joined."""
-        moved = points[known]
+        moved_points = points[known]
         for pose in mounts:
-            moved = quaternion.rotate(pose[3:], moved) + pose[:3]
-        moved = quaternion.rotate(rotation[known], moved) + place[known]
-        cells = np.floor(moved / size).astype(np.int64)
+            moved_points = quaternion.rotate(pose[3:], moved_points) + pose[:3]
+        moved_points = quaternion.rotate(rotation[known], moved_points) + place[known]
+        cells = np.floor(moved_points / size).astype(np.int64)
         cells -= cells.min(axis=0)
         keys = (cells[:, 0] << 42) + (cells[:, 1] << 21) + cells[:, 2]
         single = np.unique(keys * 64 + number[known])
@@ -141,11 +141,11 @@ def _find_by_overlap(
     if published < _MIN_REMAINING_SHARE:
         return None
     for position, edge in enumerate(chain):
-        tried = [
+        candidates = [
             (remaining([*poses[:position], correction.pose, *poses[position + 1 :]]), correction)
             for correction in _distinct_corrections(edge)
         ]
-        share, best = min(tried, key=lambda pair: pair[0])
+        share, best = min(candidates, key=lambda pair: pair[0])
         if share < _MAX_CORRECTED_RATIO * published:
             text = (
                 f"the scans of {topic} do not fit together while the robot moves: joined, {published:.0%} of their "
@@ -180,8 +180,8 @@ def _acceleration_at_rest(imu: ObservedImu) -> Array | None:
     length = float(np.linalg.norm(up))
     if length < 1.0 - _MAX_STILL_TILT:
         return None
-    off = np.arccos(np.clip(directions @ (up / length), -1.0, 1.0))
-    return np.asarray(up / length) if float(np.median(off)) < _MAX_STILL_TILT else None
+    angles = np.arccos(np.clip(directions @ (up / length), -1.0, 1.0))
+    return np.asarray(up / length) if float(np.median(angles)) < _MAX_STILL_TILT else None
 
 
 def _window(scans: Sequence[ObservedPoints]) -> Sequence[ObservedPoints]:

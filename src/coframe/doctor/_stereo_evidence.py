@@ -139,8 +139,8 @@ def _contradiction(pair: _Pair) -> StereoContradiction | None:
 
 def _angle_to(relative: Array, first: CameraModel, second: CameraModel) -> float:
     """Return the angle between the rotation of a relative pose and that which R of both cameras states."""
-    off = first.r @ quaternion.to_matrix(relative[3:]) @ second.r.T
-    return float(np.arccos(np.clip((np.trace(off) - 1.0) / 2.0, -1.0, 1.0)))
+    rotation_error = first.r @ quaternion.to_matrix(relative[3:]) @ second.r.T
+    return float(np.arccos(np.clip((np.trace(rotation_error) - 1.0) / 2.0, -1.0, 1.0)))
 
 
 def _wrong_mount(

@@ -62,9 +62,9 @@ class Transforms:
         columns["publisher"] = np.concatenate(
             [_NO_NUMBERS, *(number_names(publishers, batch.publishers)[batch.publisher] for batch in batches)]
         )
-        arrived = columns["arrived"]
-        if (arrived[1:] < arrived[:-1]).any():
-            order = np.argsort(arrived, kind="stable")
+        arrival_times = columns["arrived"]
+        if (arrival_times[1:] < arrival_times[:-1]).any():
+            order = np.argsort(arrival_times, kind="stable")
             columns = {name: column[order] for name, column in columns.items()}
         return Transforms(**columns, names=names, publishers=tuple(publishers), sent=sent)
 

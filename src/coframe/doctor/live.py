@@ -282,9 +282,9 @@ class LiveObserver:
             clock=self._clock(start),
             travel=self._delays_by_node(),
             log=tuple(
-                ObservedLogLine(_node_of_logger(message.name), message.msg, arrived)
-                for arrived, message in self._decoded_messages("rcl_interfaces/msg/Log")
-                if arrived >= start
+                ObservedLogLine(_node_of_logger(message.name), message.msg, arrival_time)
+                for arrival_time, message in self._decoded_messages("rcl_interfaces/msg/Log")
+                if arrival_time >= start
             ),
             cache=self.cache,
             link_name=self._rename,
@@ -397,13 +397,13 @@ class LiveObserver:
         topic.messages += len(messages.ends)
         if messages.dropped:
             topic.forgotten_until = time.time_ns()
-        whole = Slices.contiguous(messages.data, messages.ends).each()
-        rows = zip(map(bytes, whole), messages.arrived.tolist(), messages.writers.tolist(), strict=True)
+        message_bytes = Slices.contiguous(messages.data, messages.ends).each()
+        rows = zip(map(bytes, message_bytes), messages.arrived.tolist(), messages.writers.tolist(), strict=True)
         if topic.type in _DECODED_TYPES or topic.name.endswith(_DESCRIPTION):
-            for size, arrived, message in _decode(topic.type, rows):
-                topic.add_decoded(size, arrived, message)
+            for size, arrival_time, message in _decode(topic.type, rows):
+                topic.add_decoded(size, arrival_time, message)
             return
-        for data, arrived, writer in rows if begins_with_header(topic.type) else ():
+        for data, arrival_time, writer in rows if begins_with_header(topic.type) else ():
             header = peek_header(data)
             if header is not None:
                 stamp, frame = header
@@ -426,14 +426,14 @@ class LiveObserver:
 
     def _clock(self, start: int) -> ObservedClock | None:
         received = [
-            (arrived, message.clock.sec * SECOND + message.clock.nanosec)
-            for arrived, message in self._decoded_messages("rosgraph_msgs/msg/Clock")
-            if arrived >= start
+            (arrival_times, message.clock.sec * SECOND + message.clock.nanosec)
+            for arrival_times, message in self._decoded_messages("rosgraph_msgs/msg/Clock")
+            if arrival_times >= start
         ]
         if not received:
             return None
-        arrived, stamp = np.array(received, dtype=np.int64).T
-        return ObservedClock(arrived, stamp)
+        arrival_times, stamp = np.array(received, dtype=np.int64).T
+        return ObservedClock(arrival_times, stamp)
 
     def publishers(self, topic: str) -> tuple[ObservedEndpoint, ...]:
         """Return the publishers of a topic."""
@@ -475,9 +475,9 @@ class LiveObserver:
 def _decode(ros_type: str, messages: Iterable[tuple[bytes, int, int]]) -> Iterator[tuple[int, int, Any]]:
     """Yield the size, arrival time and content of each valid message."""
     message_type = find(ros_type)
-    for data, arrived, _ in messages:
+    for data, arrival_time, _ in messages:
         with contextlib.suppress(DecodeError):
-            yield len(data), arrived, deserialize(data, message_type)
+            yield len(data), arrival_time, deserialize(data, message_type)
 
 
 def _node_of_logger(logger: str) -> str:
@@ -511,6 +511,6 @@ def _sensor(topic: _Topic, frame: str, headers: list[_ReceivedHeader], node_of: 
 
 
 def _joints(topic: _Topic, start: int) -> ObservedJointStates:
-    messages = [message for arrived, message in topic.decoded if arrived >= start]
+    messages = [message for arrival_time, message in topic.decoded if arrival_time >= start]
     stamps = [message.header.stamp.sec * SECOND + message.header.stamp.nanosec for message in messages]
     return joint_states(topic.name, stamps, messages)

@@ -202,9 +202,9 @@ class ObservedClock:
     arrived: NDArray[np.int64]
     stamp: NDArray[np.int64]
 
-    def at(self, arrived: NDArray[np.int64]) -> NDArray[np.int64]:
+    def at(self, arrival_times: NDArray[np.int64]) -> NDArray[np.int64]:
         """Return the simulated time at given arrival times, interpolated between the messages."""
-        elapsed = (arrived - self.arrived[0]).astype(np.float64)
+        elapsed = (arrival_times - self.arrived[0]).astype(np.float64)
         between = np.interp(elapsed, self.arrived - self.arrived[0], self._elapsed_times)
         return np.asarray(self.stamp[0] + np.rint(between).astype(np.int64))
 
@@ -399,7 +399,9 @@ class Observation:
         times |= {sensor.topic: (sensor.stamp, sensor.arrived) for sensor in self.sensors if len(sensor.stamp)}
         # A stamp of 0 is not a time: it was never set.
         times = {
-            name: (stamp[stamp != 0], arrived[stamp != 0]) for name, (stamp, arrived) in times.items() if stamp.any()
+            name: (stamp[stamp != 0], arrival_times[stamp != 0])
+            for name, (stamp, arrival_times) in times.items()
+            if stamp.any()
         }
         found: dict[str, str] = {name: self.clock_of(*columns) for name, columns in times.items()}
         others = [name for name, clock in found.items() if clock == "other"]
@@ -450,17 +452,17 @@ class Observation:
         lags += [sensor.arrived - sensor.stamp for sensor in self.sensors if sensor.topic in names]
         return int(np.median([int(np.median(lag)) for lag in lags]))
 
-    def clock_of(self, stamp: NDArray[np.int64], arrived: NDArray[np.int64]) -> ClockName:
+    def clock_of(self, stamp: NDArray[np.int64], arrival_times: NDArray[np.int64]) -> ClockName:
         """Return the clock of stamps, determined from their arrival times."""
-        simulated = None if self.clock is None else float(np.median(self.clock.at(arrived) - stamp))
-        return clock_of(float(np.median(arrived - stamp)), simulated)
+        simulated = None if self.clock is None else float(np.median(self.clock.at(arrival_times) - stamp))
+        return clock_of(float(np.median(arrival_times - stamp)), simulated)
 
-    def lags(self, stamp: NDArray[np.int64], arrived: NDArray[np.int64]) -> NDArray[np.int64] | None:
+    def lags(self, stamp: NDArray[np.int64], arrival_times: NDArray[np.int64]) -> NDArray[np.int64] | None:
         """Return the delays from stamp to arrival on the clock of the stamps, or None if that clock is unknown."""
-        clock = self.clock_of(stamp, arrived)
+        clock = self.clock_of(stamp, arrival_times)
         if clock == "simulated" and self.clock is not None:
-            return self.clock.at(arrived) - stamp
-        return np.asarray(arrived - stamp) if clock == "wall" else None
+            return self.clock.at(arrival_times) - stamp
+        return np.asarray(arrival_times - stamp) if clock == "wall" else None
 
     def waits(self, sensor: Sensor) -> NDArray[np.int64]:
         """Return how long after the arrival of each message its transform to the root is available, (N,).
@@ -472,7 +474,7 @@ class Observation:
         return _waits(self.path(sensor.frame), sensor.stamp, last, sensor.arrived)
 
     def waits_between(
-        self, target: str, source: str, stamp: NDArray[np.int64], arrived: NDArray[np.int64]
+        self, target: str, source: str, stamp: NDArray[np.int64], arrival_times: NDArray[np.int64]
     ) -> NDArray[np.int64]:
         """Return how long after each arrival the transform between two frames at a stamp is available, (N,).
 
@@ -483,7 +485,7 @@ class Observation:
             return np.full(len(stamp), NEVER)
         on_chain = set(frames)
         edges = [self.last[frame] for frame in frames if frame in self.last]
-        return _waits([edge for edge in edges if edge.parent in on_chain], stamp, stamp, arrived)
+        return _waits([edge for edge in edges if edge.parent in on_chain], stamp, stamp, arrival_times)
 
 
 def _waits(

@@ -140,22 +140,22 @@ def explain(
     """
     place, rotation = published[:, :3], published[:, 3:]
     right_place, right_turn = expected[:, :3], expected[:, 3:]
-    far, turned = _distance(place, right_place), _rotation(rotation, right_turn)
-    if far <= meters and turned <= radians:
+    distance, angle = _distance(place, right_place), _rotation(rotation, right_turn)
+    if distance <= meters and angle <= radians:
         return None
-    whole = _explain_inverse(published, expected, (meters, radians), (far, turned))
-    if whole is not None:
-        return whole
-    moved = _first(_translations(right_turn), place, right_place, meters, _distance) if far > meters else None
-    rotated = _first(_AXIS_ROTATIONS, rotation, right_turn, radians, _rotation) if turned > radians else None
+    inverse_explanation = _explain_inverse(published, expected, (meters, radians), (distance, angle))
+    if inverse_explanation is not None:
+        return inverse_explanation
+    moved = _first(_translations(right_turn), place, right_place, meters, _distance) if distance > meters else None
+    rotated = _first(_AXIS_ROTATIONS, rotation, right_turn, radians, _rotation) if angle > radians else None
     parts = [part for part in (rotated, moved) if part is not None]
     if not parts:
         return None
     return Explanation(
         " and ".join(part.mistake.reading for part in parts),
         " ".join(dict.fromkeys(part.mistake.fix for part in parts)),
-        moved.left if moved else far if far <= meters else float("nan"),
-        rotated.left if rotated else turned if turned <= radians else float("nan"),
+        moved.left if moved else distance if distance <= meters else float("nan"),
+        rotated.left if rotated else angle if angle <= radians else float("nan"),
         rank=sum(1 + part.rank for part in parts),
     )
 
@@ -182,8 +182,8 @@ def corrections(pose: Array) -> Iterator[Correction]:
     place, rotation = pose[:3], pose[None, 3:]
     inverse = inverse_poses(pose[None])[0]
     for mistake in _AXIS_ROTATIONS:
-        for turned in mistake.undo_mistake(rotation):
-            yield Correction(mistake.reading, mistake.fix, np.concatenate([place, turned[0]]))
+        for corrected_rotation in mistake.undo_mistake(rotation):
+            yield Correction(mistake.reading, mistake.fix, np.concatenate([place, corrected_rotation[0]]))
     yield Correction(_INVERTED, _INVERTED_FIX, inverse)
 
 
@@ -331,8 +331,8 @@ def _round_degrees(rotation: Array) -> list[Array]:
 
 def _round_angles(angle: float) -> list[float]:
     values = np.arange(-360.0, 360.0 + _ANGLE_STEP, _ANGLE_STEP)
-    off = np.abs((values - angle + pi) % (2.0 * pi) - pi)
-    return [float(value) for value in values[off < _MAX_ANGLE_ERROR]]
+    deviations = np.abs((values - angle + pi) % (2.0 * pi) - pi)
+    return [float(value) for value in values[deviations < _MAX_ANGLE_ERROR]]
 
 
 def _to_radians(rotation: Array) -> list[Array]:

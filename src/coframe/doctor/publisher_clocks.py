@@ -42,9 +42,9 @@ def publisher_clocks(observation: Observation) -> list[PublisherClock]:
     rows |= {sensor.topic: (sensor.publishers, sensor.stamp, sensor.arrived) for sensor in observation.sensors}
     found = []
     for name, clock in observation.clocks.items():
-        publishers, stamp, arrived = rows[name]
-        arrived, stamp = arrived[stamp != 0], stamp[stamp != 0]
-        lags = observation.lags(stamp, arrived)
-        delays = np.asarray(arrived - stamp if lags is None else lags) / 1e9
-        found.append(PublisherClock(name, publishers, clock, observation.offset(name), arrived, delays))
+        publishers, stamp, arrival_times = rows[name]
+        arrival_times, stamp = arrival_times[stamp != 0], stamp[stamp != 0]
+        lags = observation.lags(stamp, arrival_times)
+        delays = np.asarray(arrival_times - stamp if lags is None else lags) / 1e9
+        found.append(PublisherClock(name, publishers, clock, observation.offset(name), arrival_times, delays))
     return sorted(found, key=lambda each: -abs(each.offset.offset))

@@ -96,11 +96,11 @@ def _angles_as_components(quaternions: NDArray[np.float64]) -> Cause | None:
     rpy = np.radians(angles[0]) if in_degrees else angles[0]
     right = quaternion.from_rpy(rpy)
     values = ", ".join(f"{name} = {value + 0.0:.6g}" for name, value in zip("xyzw", right.tolist(), strict=True))
-    named = _angles_text(rpy)
+    angles_text = _angles_text(rpy)
     return Cause(
-        f"x, y and z look like the angles {named} in {'degrees' if in_degrees else 'radians'}, not like components of "
-        "a quaternion",
-        f"Convert the angles: the quaternion of {named} is {values}. "
+        f"x, y and z look like the angles {angles_text} in {'degrees' if in_degrees else 'radians'}, "
+        "not like components of a quaternion",
+        f"Convert the angles: the quaternion of {angles_text} is {values}. "
         "In code: coframe.Transform.from_rpy([x, y, z], [roll, pitch, yaw]), with angles in radians"
         + (" (math.radians)." if in_degrees else "."),
     )

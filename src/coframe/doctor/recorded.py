@@ -225,8 +225,8 @@ class _Facts:
     def _clock(self) -> ObservedClock | None:
         if "/clock" not in self._topics_of_type({"rosgraph_msgs/msg/Clock"}):
             return None
-        arrived, stamp = self._recording.received("/clock"), self._recording.stamps("/clock")
-        return ObservedClock(arrived, stamp) if len(stamp) else None
+        arrival_times, stamp = self._recording.received("/clock"), self._recording.stamps("/clock")
+        return ObservedClock(arrival_times, stamp) if len(stamp) else None
 
     def _decode_first(self, topic: str, limit: int) -> Iterator[Any]:
         """Yield the first messages on a topic; damaged ones are reported as problems of the recording.
@@ -294,9 +294,9 @@ class _Facts:
 
     def _log_lines(self, topic: str) -> Iterator[ObservedLogLine]:
         received = self._recording.received(topic)
-        for arrived, message in zip(received.tolist(), self._decode_first(topic, _MAX_DECODED), strict=False):
+        for arrival_time, message in zip(received.tolist(), self._decode_first(topic, _MAX_DECODED), strict=False):
             if hasattr(message, "name") and hasattr(message, "msg"):
-                yield ObservedLogLine(str(message.name), str(message.msg), arrived)
+                yield ObservedLogLine(str(message.name), str(message.msg), arrival_time)
 
 
 def _spread_messages(messages: int) -> list[NDArray[np.int64]]:

@@ -108,7 +108,7 @@ def publisher_statistics(observation: Observation) -> list[PublisherStatistics]:
     transforms = observation.transforms
     rows = []
     for number in np.unique(transforms.publisher[~transforms.static]).tolist():
-        arrived = np.unique(transforms.arrived[(transforms.publisher == number) & ~transforms.static])
+        arrival_times = np.unique(transforms.arrived[(transforms.publisher == number) & ~transforms.static])
         edges = [(edge, edge.publisher == number) for edge in observation.dynamic]
         lags = [
             lag
@@ -116,7 +116,11 @@ def publisher_statistics(observation: Observation) -> list[PublisherStatistics]:
             if own.any() and (lag := observation.lags(edge.stamp[own], edge.arrived[own])) is not None
         ]
         delays = np.concatenate(lags) if lags else None
-        rows.append(PublisherStatistics(transforms.publishers[number], len(arrived), _rate(arrived), *_delays(delays)))
+        rows.append(
+            PublisherStatistics(
+                transforms.publishers[number], len(arrival_times), _rate(arrival_times), *_delays(delays)
+            )
+        )
     return rows
 
 
@@ -128,17 +132,17 @@ def chain_statistics(observation: Observation, target: str, source: str) -> Chai
     on_chain = set(frames)
     edges = [observation.last[frame] for frame in frames if frame in observation.last]
     edges = [edge for edge in edges if edge.parent in on_chain]
-    moving = [edge for edge in edges if not edge.static]
-    begin = max((int(edge.arrived[0]) for edge in moving), default=observation.end)
-    if not moving or begin >= observation.end:
+    moving_edges = [edge for edge in edges if not edge.static]
+    begin = max((int(edge.arrived[0]) for edge in moving_edges), default=observation.end)
+    if not moving_edges or begin >= observation.end:
         return ChainStatistics(frames, None, None, None, None, 0.0)
     times = np.linspace(begin, observation.end, _CHAIN_SAMPLES).astype(np.int64)
-    newest = np.array([_newest(edge, times) for edge in moving])
+    newest = np.array([_newest(edge, times) for edge in moving_edges])
     last = newest.argmin(axis=0)
     delays = observation.lags(newest.min(axis=0), times)
-    counts = np.bincount(last, minlength=len(moving))
+    counts = np.bincount(last, minlength=len(moving_edges))
     limit = int(counts.argmax())
-    return ChainStatistics(frames, *_delays(delays), moving[limit].key, float(counts[limit] / len(times)))
+    return ChainStatistics(frames, *_delays(delays), moving_edges[limit].key, float(counts[limit] / len(times)))
 
 
 def _newest(edge: Edge, times: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -152,18 +156,18 @@ def _edge(observation: Observation, edge: Edge, publisher: int, rows: NDArray[np
     count = int(np.count_nonzero(rows))
     if edge.static:
         return EdgeStatistics(edge.parent, edge.child, name, True, count, None, None, None, None, None, None, False)
-    stamp, arrived = edge.stamp[rows], edge.arrived[rows]
+    stamp, arrival_times = edge.stamp[rows], edge.arrived[rows]
     age = observation.lags(np.array([stamp.max()]), np.array([observation.end]))
-    jitter = float(np.std(arrived[1:] - arrived[:-1])) if count > 2 else None
+    jitter = float(np.std(arrival_times[1:] - arrival_times[:-1])) if count > 2 else None
     return EdgeStatistics(
         edge.parent,
         edge.child,
         name,
         False,
         count,
-        _rate(arrived),
+        _rate(arrival_times),
         jitter,
-        *_delays(observation.lags(stamp, arrived)),
+        *_delays(observation.lags(stamp, arrival_times)),
         int(age[0]) if age is not None else None,
         observation.is_stale(edge),
     )

@@ -101,5 +101,5 @@ def _files(folder: Path, kind: str) -> list[Path]:
         paths = sorted(path for path in folder.iterdir() if path.suffix in {f".{kind}", ".idl"})
     except OSError:
         return []
-    plain = {path.stem for path in paths if path.suffix != ".idl"}
-    return [path for path in paths if path.suffix != ".idl" or path.stem not in plain]
+    message_names = {path.stem for path in paths if path.suffix != ".idl"}
+    return [path for path in paths if path.suffix != ".idl" or path.stem not in message_names]

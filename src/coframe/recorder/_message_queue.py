@@ -95,12 +95,12 @@ class MessageQueue:
                 if left <= 0:
                     break
                 self._condition.wait(left)
-            taken: list[ReceivedMessage] = []
+            messages: list[ReceivedMessage] = []
             while limit > 0 and (queue := self._queue_with_oldest()):
-                taken.append(queue.popleft())
-                self.size -= _size(taken[-1])
-                limit -= _size(taken[-1])
-            return taken
+                messages.append(queue.popleft())
+                self.size -= _size(messages[-1])
+                limit -= _size(messages[-1])
+            return messages
 
     @property
     def is_done(self) -> bool:

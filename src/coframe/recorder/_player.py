@@ -198,10 +198,10 @@ class Player:
             complete = self._play_from(start)
             if self.clock.stopped:
                 return
-            sought, self._seek_target = self._seek_target, None
-            if sought is None and complete and not self._loop:
+            target, self._seek_target = self._seek_target, None
+            if target is None and complete and not self._loop:
                 return
-            start = self._start if sought is None else sought
+            start = self._start if target is None else target
             self._publishers.publish_latched(start)
 
     def _play_from(self, start: int) -> bool:

@@ -250,15 +250,15 @@ class Robot:
             groups = group_messages(messages, self.joints)
         found = Buffer(None)
         authority = f"robot {self.name}".rstrip()
-        moving = set()
+        moving_joints = set()
         for times, positions in groups:
             for name, poses in self.joint_transforms(positions).items():
                 joint = self.joints[name]
                 if joint.size and (name in positions or (joint.mimic and self._leader(joint)[0] in positions)):
-                    moving.add(name)
+                    moving_joints.add(name)
                     found.set_many(joint.parent, joint.child, times, poses, authority=authority)
         for name, pose in self.joint_transforms().items():
-            if name not in moving:
+            if name not in moving_joints:
                 joint = self.joints[name]
                 found.set(joint.parent, joint.child, pose, static=True, authority=authority)
         return found
@@ -320,9 +320,10 @@ class Robot:
         for name, value in known.items():
             if not np.isfinite(value).all() or (self.joints[name].size == 7 and not value[..., 3:].any(axis=-1).all()):
                 raise ValueError(_position_error(name))
-        moving = (joint for joint in self.joints.values() if joint.size)
+        moving_joints = (joint for joint in self.joints.values() if joint.size)
         return {
-            joint.name: np.broadcast_to(self._position(joint, known), (*shape, *_axes(joint))) for joint in moving
+            joint.name: np.broadcast_to(self._position(joint, known), (*shape, *_axes(joint)))
+            for joint in moving_joints
         }, shape
 
     def _given_positions(self, given: Positions | None) -> tuple[dict[str, Array], tuple[int, ...]]:

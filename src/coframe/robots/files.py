@@ -113,13 +113,13 @@ def _expand(
 ) -> dict[str, Any]:
     """Expand a file in a separate process, because Python expressions in it can take any amount of time and memory."""
     try:
-        done = run(("-I", str(_PROCESS)), json.dumps(request).encode())
+        result = run(("-I", str(_PROCESS)), json.dumps(request).encode())
     except subprocess.TimeoutExpired:
         return {"error": f"xacro: expanding the file takes longer than the maximum of {MAX_SECONDS:g} s"}
     try:
-        answer: dict[str, Any] = json.loads(done.stdout)
+        answer: dict[str, Any] = json.loads(result.stdout)
     except ValueError:
-        return {"error": f"xacro: the process that expands the file ended with exit code {done.returncode}"}
+        return {"error": f"xacro: the process that expands the file ended with exit code {result.returncode}"}
     return answer
 
 
@@ -136,7 +136,7 @@ def run_xacro(command: list[str], *, capture: bool = False) -> subprocess.Comple
     limited = [sys.executable, "-I", str(_PROCESS)] if os.name == "posix" else []
     with tempfile.TemporaryFile() as output, tempfile.TemporaryFile() as errors:
         try:
-            done = subprocess.run(  # noqa: S603 - the caller's command
+            result = subprocess.run(  # noqa: S603 - the caller's command
                 [*limited, *command],
                 stdout=output,
                 stderr=subprocess.STDOUT if capture else errors,
@@ -151,4 +151,4 @@ def run_xacro(command: list[str], *, capture: bool = False) -> subprocess.Comple
                 raise RobotDescriptionError(f"the output of xacro is larger than the maximum of {MAX_OUTPUT >> 20} MiB")
             file.seek(0)
             texts.append(file.read().decode(errors="replace"))
-    return subprocess.CompletedProcess(command, done.returncode, *texts)
+    return subprocess.CompletedProcess(command, result.returncode, *texts)

@@ -71,8 +71,8 @@ def depth_points(
             f"the depth image has {sizes[0]} pixels, but its CameraInfo describes {sizes[1]}",
             hint="Use the CameraInfo that is published together with this image.",
         )
-    chosen = depths[::step, ::step]
-    measured = np.where(np.isfinite(chosen) & (chosen > 0.0), chosen, np.nan)
+    sampled_depths = depths[::step, ::step]
+    measured = np.where(np.isfinite(sampled_depths) & (sampled_depths > 0.0), sampled_depths, np.nan)
     width, height = camera.image_size
     pixels = np.stack(np.meshgrid(np.arange(0, width, step), np.arange(0, height, step)), axis=-1)
     rays = camera.rays(pixels, rectified=rectified)

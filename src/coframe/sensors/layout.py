@@ -94,9 +94,9 @@ def coordinates(points: Any, vectors: Vectors, normals: Sequence[Sequence[str]] 
         ValueError: A field is missing, or is not float32 or float64.
     """
     message = is_message(points)
-    plain = not message and points.dtype.names is None
-    names = () if plain else [f.name for f in points.fields] if message else points.dtype.names
-    triples: list[Sequence[str | int]] = [(0, 1, 2) if plain else _POSITION]
+    is_plain_array = not message and points.dtype.names is None
+    names = () if is_plain_array else [f.name for f in points.fields] if message else points.dtype.names
+    triples: list[Sequence[str | int]] = [(0, 1, 2) if is_plain_array else _POSITION]
     triples += [triple for triple in normals if set(triple) <= set(names)]
     triples += [triple for triple in _triples(vectors) if tuple(triple) not in {tuple(other) for other in triples}]
     return [_read_triple(points, triple) for triple in triples]
@@ -148,9 +148,9 @@ def message_with_float64(cloud: Any) -> Any:
             raise ValueError(f"the field {field.name!r} has the unknown datatype {field.datatype}")
         size = dtype.itemsize * max(field.count, 1)
         columns.append((field, is_position, offset, size))
-        moved = copy.copy(field)
-        moved.offset, moved.datatype = offset, _FLOAT64 if is_position else field.datatype
-        result.fields.append(moved)
+        new_field = copy.copy(field)
+        new_field.offset, new_field.datatype = offset, _FLOAT64 if is_position else field.datatype
+        result.fields.append(new_field)
         offset += size
     rows, width = grid_shape(cloud)
     packed = np.zeros((rows, width, offset), np.uint8)

@@ -103,14 +103,14 @@ def _motion(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.i
     if buffer.latest_common_time(target, source) == 0:
         return 0.0
     ends = np.array([np.iinfo(np.int64).min + 1, np.iinfo(np.int64).max])
-    tried = [stamps]
+    tried_stamps = [stamps]
     with suppress(TransformException):  # The edges have no common time if a frame changes its parent.
         buffer._lookup_rows(target, source, ends, np.empty((2, 7)), None, None, "clip", 1)  # noqa: SLF001
         first, last = int(ends[0]), int(ends[1])
-        tried.append(
+        tried_stamps.append(
             np.array([first + (last - first) * i // (_SAMPLE_COUNT - 1) for i in range(_SAMPLE_COUNT)], dtype=np.int64)
         )
-    return max(_motion_extent(_poses(buffer, target, source, times)) for times in tried)
+    return max(_motion_extent(_poses(buffer, target, source, times)) for times in tried_stamps)
 
 
 def _poses(buffer: _core.Buffer, target: str, source: str, stamps: NDArray[np.int64]) -> NDArray[np.float64]:

@@ -95,19 +95,19 @@ def probe_participant(domain: int, environment: Mapping[str, str]) -> Probe:
 def _exchange_message(participant: int) -> bool:
     """Send a message through the library to a reader of the same participant. Return whether it arrived unchanged."""
     message = b"\0\1\0\0" + bytes(range(200))
-    arrived = _core.Event()
+    message_event = _core.Event()
     qos = native_qos(QoS(depth=1))
     name = "rt/_coframe_doctor"
     try:
         topics = [create_topic(participant, name, "coframe::msg::dds_::Probe_") for _ in range(2)]
-        reader = _core.Reader(participant, topics[0], qos, "", arrived)
+        reader = _core.Reader(participant, topics[0], qos, "", message_event)
         writer = _core.Writer(participant, topics[1], qos, "")
-        arrived.clear()
+        message_event.clear()
         writer.write(message)
         deadline = time.monotonic() + _RECEIVE_TIMEOUT
         received: list[tuple[bytes, int, int]] = []
         while not received and time.monotonic() < deadline:
-            arrived.wait(20_000_000)
+            message_event.wait(20_000_000)
             received = reader.take(1)
         writer.close()
         reader.close()

@@ -96,8 +96,8 @@ def _resultant_length(positions: NDArray[np.float64], xyzw: NDArray[np.float64])
     if np.count_nonzero(moving) < _MIN_MOVES:
         return None
     directions = steps[moving] / lengths[moving, None]
-    turned = _rotate_vectors(directions, xyzw[:-1][moving] * (-1, -1, -1, 1) / norms[moving, None])
-    return float(np.linalg.norm(turned.mean(axis=0)))
+    local_directions = _rotate_vectors(directions, xyzw[:-1][moving] * (-1, -1, -1, 1) / norms[moving, None])
+    return float(np.linalg.norm(local_directions.mean(axis=0)))
 
 
 def _inverse_positions(positions: NDArray[np.float64], xyzw: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -109,8 +109,8 @@ def _inverse_positions(positions: NDArray[np.float64], xyzw: NDArray[np.float64]
 def _rotate_vectors(vectors: NDArray[np.float64], xyzw: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return vectors rotated by unit quaternions."""
     axis, scalar = xyzw[:, :3], xyzw[:, 3:]
-    turned: NDArray[np.float64] = vectors + 2 * np.cross(axis, np.cross(axis, vectors) + scalar * vectors)
-    return turned
+    result: NDArray[np.float64] = vectors + 2 * np.cross(axis, np.cross(axis, vectors) + scalar * vectors)
+    return result
 
 
 def _percent_text(share: float) -> str:

@@ -92,9 +92,9 @@ def header_columns(line: str) -> Columns | None:
 def _columns(line: str, found: dict[str, int], units: dict[str, str]) -> Columns | None:
     """Return the columns, given the index and the unit of each value."""
     unit = _UNITS.get(units.get("stamp", "")[:1])
-    nanoseconds, whole = found.pop("nanoseconds", -1), found.pop("seconds", -1)
+    nanoseconds, seconds = found.pop("nanoseconds", -1), found.pop("seconds", -1)
     if "stamp" not in found and nanoseconds >= 0:
-        found["stamp"], nanoseconds, unit = (whole, nanoseconds, SECOND) if whole >= 0 else (nanoseconds, -1, 1)
+        found["stamp"], nanoseconds, unit = (seconds, nanoseconds, SECOND) if seconds >= 0 else (nanoseconds, -1, 1)
     if set(found) != {"stamp", *_POSE}:
         return None
     lengths = {units[axis] for axis in "xyz"}

@@ -242,7 +242,7 @@ def compare_trajectories(
         if len(poses.shape) != 1 or not len(poses):
             raise ValueError(f"The {name} must be a batch of shape (N,) with at least one pose, not {poses.shape}.")
         check_positions(poses)
-    chosen = _checked_delta(delta)
+    checked_delta = _checked_delta(delta)
     if body_offset is not None:
         estimate = estimate @ body_offset.replace(target=estimate.source, source=estimate.source, stamp=None)
     method = _Method(align, n_to_align, align_origin)
@@ -272,8 +272,8 @@ def compare_trajectories(
         estimate,
         alignment,
         _absolute_errors(reference, estimate),
-        _relative_errors(reference, estimate, chosen),
-        chosen,
+        _relative_errors(reference, estimate, checked_delta),
+        checked_delta,
         found,
         time_shift,
         shift,
@@ -416,11 +416,13 @@ def parse_delta(text: str) -> Delta:
 def _checked_delta(delta: float | str | Delta) -> Delta:
     if isinstance(delta, str):
         return parse_delta(delta)
-    chosen = delta if isinstance(delta, Delta) else Delta(delta)
-    is_whole = chosen.unit != "frames" or float(chosen.value).is_integer()
-    if not chosen.value > 0 or not is_whole:
-        raise ValueError(f"delta must be positive, and a whole number for poses, not {chosen.value:g} {chosen.unit}")
-    return chosen
+    checked_delta = delta if isinstance(delta, Delta) else Delta(delta)
+    is_whole = checked_delta.unit != "frames" or float(checked_delta.value).is_integer()
+    if not checked_delta.value > 0 or not is_whole:
+        raise ValueError(
+            f"delta must be positive, and a whole number for poses, not {checked_delta.value:g} {checked_delta.unit}"
+        )
+    return checked_delta
 
 
 def _as_dict(errors: PoseErrors) -> dict[str, Any]:
@@ -433,8 +435,8 @@ def _as_dict(errors: PoseErrors) -> dict[str, Any]:
 
 def _absolute_errors(reference: Transform, estimate: Transform) -> PoseErrors:
     distance = np.linalg.norm(estimate.translation - reference.translation, axis=1)
-    turn = quaternion.multiply(quaternion.inverse(estimate.quaternion), reference.quaternion)
-    return PoseErrors(distance, _rotation_angles(turn), np.arange(len(distance)))
+    rotation_difference = quaternion.multiply(quaternion.inverse(estimate.quaternion), reference.quaternion)
+    return PoseErrors(distance, _rotation_angles(rotation_difference), np.arange(len(distance)))
 
 
 def _relative_errors(reference: Transform, estimate: Transform, delta: Delta) -> PoseErrors:

@@ -100,11 +100,11 @@ def find_body_offset(
     # Another world frame also turns all poses of a robot on a plane, but it moves them by the angle times the extent.
     extent = float(np.sqrt(reference.translation.var(axis=0).sum()))
     is_near = translations[1] < max(_STEP_RATIO * translations[0], _STEP_RATIO * 2.0 * np.sin(angle / 2.0) * extent)
-    turned = angle > _MIN_ANGLE and rotations[1] < _STEP_RATIO * rotations[0] and is_near
+    explains_rotation = angle > _MIN_ANGLE and rotations[1] < _STEP_RATIO * rotations[0] and is_near
     # A lever arm can only be distinguished from noise if it explains the translations, and nothing gets worse.
-    moved = translations[1] < _STEP_RATIO * translations[0] and rotations[1] < 1.01 * rotations[0] + 1e-9
+    explains_translation = translations[1] < _STEP_RATIO * translations[0] and rotations[1] < 1.01 * rotations[0] + 1e-9
     is_arm = float(np.linalg.norm(offset.translation)) > 3.0 * translations[1] + 1e-6
-    if not (always or turned or (moved and is_arm)):
+    if not (always or explains_rotation or (explains_translation and is_arm)):
         return None
     return BodyOffset(offset, translations, rotations)
 

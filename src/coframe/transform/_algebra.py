@@ -182,8 +182,10 @@ class TransformAlgebra(TransformValues):
         common_frame(self.target, other.target, "compare", self, other)
         common_frame(self.source, other.source, "compare", self, other)
         apart = np.linalg.norm(self.translation - other.translation, axis=-1)
-        turn = quaternion.multiply(quaternion.inverse(self.quaternion), other.quaternion)
-        angle = 2.0 * np.arctan2(np.linalg.norm(turn[..., :3], axis=-1), np.abs(turn[..., 3]))
+        rotation_difference = quaternion.multiply(quaternion.inverse(self.quaternion), other.quaternion)
+        angle = 2.0 * np.arctan2(
+            np.linalg.norm(rotation_difference[..., :3], axis=-1), np.abs(rotation_difference[..., 3])
+        )
         return (float(apart), float(angle)) if np.ndim(apart) == np.ndim(angle) == 0 else (apart, angle)
 
     def mean(self, weights: ArrayLike | None = None) -> Transform:
@@ -278,10 +280,12 @@ class TransformAlgebra(TransformValues):
         """
         target = common_frame(self.target, other.target, "fuse", self, other)
         source = common_frame(self.source, other.source, "fuse", self, other)
-        mine = _covariance.to_body(known_covariance(self, "fuse()"), self.rotation)
+        own_covariance = _covariance.to_body(known_covariance(self, "fuse()"), self.rotation)
         others = _covariance.to_body(known_covariance(other, "fuse()"), other.rotation)
         x, body = _covariance.fuse_poses(
-            mine, others, lambda twist: (other.inverse() @ (self.with_covariance(None) @ self.exp(twist))).log()
+            own_covariance,
+            others,
+            lambda twist: (other.inverse() @ (self.with_covariance(None) @ self.exp(twist))).log(),
         )
         pose = self.with_covariance(None) @ self.exp(x)
         covariance = _covariance.from_body(body, pose.rotation)
@@ -311,11 +315,11 @@ class TransformAlgebra(TransformValues):
         if other.covariance is not None:
             total = total + other.covariance
         error = (self.with_covariance(None).inverse() @ other.with_covariance(None)).log()
-        turned = np.concatenate(
+        rotated_error = np.concatenate(
             [quaternion.rotate(self.quaternion, error[..., :3]), quaternion.rotate(self.quaternion, error[..., 3:])],
             axis=-1,
         )
-        found = _covariance.mahalanobis(turned, total)
+        found = _covariance.mahalanobis(rotated_error, total)
         return float(found) if np.ndim(found) == 0 else found
 
     def ellipsoid(self, confidence: float = 0.95) -> Ellipsoid:
@@ -353,8 +357,10 @@ class TransformAlgebra(TransformValues):
         found = _transform_of_rows(rows, shape, self.target, other.source, stamp)
         if self.covariance is None and other.covariance is None:
             return found
-        moved = _covariance.compound_covariances(self.covariance, other.covariance, self.rotation, other.translation)
-        return _replace_covariance(found, moved, (*self.exact_edges, *other.exact_edges))
+        covariance = _covariance.compound_covariances(
+            self.covariance, other.covariance, self.rotation, other.translation
+        )
+        return _replace_covariance(found, covariance, (*self.exact_edges, *other.exact_edges))
 
 
 def _transform_of_rows(

@@ -185,8 +185,10 @@ def fuse_poses(mine: Array, others: Array, error_at: Callable[[Array], Array]) -
         error = error_at(x)
         # A small change d of x changes the error by `slope` d.
         slope = np.asarray(np.linalg.solve(_right_jacobian(error), _right_jacobian(x)), dtype=np.float64)
-        moved = mine @ np.swapaxes(slope, -1, -2)
-        gain: Array = moved @ np.linalg.pinv(slope @ moved + others, rcond=_EXACT_RATIO, hermitian=True)
+        projected_covariance = mine @ np.swapaxes(slope, -1, -2)
+        gain: Array = projected_covariance @ np.linalg.pinv(
+            slope @ projected_covariance + others, rcond=_EXACT_RATIO, hermitian=True
+        )
         previous, x = x, _product(gain, _product(slope, x) - error)
         if np.abs(x - previous).max(initial=0.0) < _SMALL_STEP * max(1.0, np.abs(x).max(initial=0.0)):
             break

@@ -87,8 +87,10 @@ class StepLimits:
             distance = np.linalg.norm(b.translation - a.translation, axis=-1)
             share = np.maximum(share, distance / self.max_translation)
         if self.max_rotation is not None:
-            turn = quaternion.multiply(quaternion.inverse(a.quaternion), b.quaternion)
-            angle = 2.0 * np.arctan2(np.linalg.norm(turn[..., :3], axis=-1), np.abs(turn[..., 3]))
+            rotation_difference = quaternion.multiply(quaternion.inverse(a.quaternion), b.quaternion)
+            angle = 2.0 * np.arctan2(
+                np.linalg.norm(rotation_difference[..., :3], axis=-1), np.abs(rotation_difference[..., 3])
+            )
             share = np.maximum(share, angle / self.max_rotation)
         return share
 

@@ -179,12 +179,14 @@ class Transform(TransformConstructors):
             return _messages.transform_message(self, other, Transform)
         points = checked_points(other)
         if self.shape:
-            turned = quaternion.rotate(self.quaternion, points.astype(np.float64, copy=False)) + self.translation
-            return turned.astype(points.dtype, copy=False)
-        moved = np.array(points, order="C")
-        x, y, z = moved.reshape(-1, 3).T
+            rotated_points = (
+                quaternion.rotate(self.quaternion, points.astype(np.float64, copy=False)) + self.translation
+            )
+            return rotated_points.astype(points.dtype, copy=False)
+        result = np.array(points, order="C")
+        x, y, z = result.reshape(-1, 3).T
         _core.transform_fields(self.values, [(x, y, z)], 1)
-        return moved
+        return result
 
     def transform_point(self, point: Any) -> NDArray[Any]:
         """Transform points from ``source`` to ``target``, like ``self @ point``.
@@ -209,8 +211,8 @@ class Transform(TransformConstructors):
             raise TypeError("transform_point() takes points, not a Transform. Use `a @ b` to compose two transforms.")
         if all(hasattr(point, axis) for axis in "xyz"):
             point = (point.x, point.y, point.z)
-        moved: NDArray[Any] = self @ checked_points(point)
-        return moved
+        result: NDArray[Any] = self @ checked_points(point)
+        return result
 
     def transform_pose(
         self, pose: Transform, covariance: ArrayLike, *, own_covariance: ArrayLike | None = None
@@ -233,10 +235,10 @@ class Transform(TransformConstructors):
             ValueError: A covariance has another shape.
         """
         given = np.asarray(covariance, dtype=np.float64)
-        theirs = _covariance.square(given, "covariance")
+        pose_covariance = _covariance.square(given, "covariance")
         own = None if own_covariance is None else _covariance.square(own_covariance, "own_covariance")
-        moved = _covariance.compound_covariances(own, theirs, self.rotation, pose.translation)
-        return self @ pose, moved.reshape(*moved.shape[:-2], 36) if given.shape[-2:] != (6, 6) else moved
+        result = _covariance.compound_covariances(own, pose_covariance, self.rotation, pose.translation)
+        return self @ pose, result.reshape(*result.shape[:-2], 36) if given.shape[-2:] != (6, 6) else result
 
     def is_close(self, other: Transform, *, translation: float = 1e-9, rotation: float = 1e-9) -> bool:
         """Return whether two transforms are equal within tolerances; frames and stamps are not compared.
@@ -281,8 +283,8 @@ class Transform(TransformConstructors):
         """
         t, q, when, matrices = self.translation, self.quaternion, any_stamp(self), self.covariance
         if translation is not _KEEP or quaternion is not _KEEP:
-            moved = Transform(t if translation is _KEEP else translation, q if quaternion is _KEEP else quaternion)
-            t, q = moved.translation, moved.quaternion
+            result = Transform(t if translation is _KEEP else translation, q if quaternion is _KEEP else quaternion)
+            t, q = result.translation, result.quaternion
         shape = np.broadcast_shapes(t.shape[:-1], q.shape[:-1])
         if stamp is not _KEEP:
             when = stamp_ns(stamp) if stamp is not None and not shape else stamp

@@ -72,8 +72,8 @@ def _group_by_parent(edges: Iterable[EdgeStatistics]) -> dict[str, list[EdgeStat
 
 def _id(number: int, name: str) -> str:
     """Return the name as identifier if it is short and printable; else a number."""
-    plain = len(name) <= _MAX_LABEL_LENGTH and name.isprintable() and not name.startswith("#")
-    return name if plain else f"#{number}"
+    is_plain = len(name) <= _MAX_LABEL_LENGTH and name.isprintable() and not name.startswith("#")
+    return name if is_plain else f"#{number}"
 
 
 def _quote_lines(lines: list[str]) -> str:

@@ -116,11 +116,11 @@ def do_transform_quaternion_stamped(quaternion: QuaternionStamped, transform: Tr
 def do_transform_pose_array(poses: PoseArray, transform: TransformStamped) -> PoseArray:
     """Transform an array of poses."""
     positions = np.array([_xyz(pose.position) for pose in poses.poses]).reshape(-1, 3)
-    moved = positions @ _rotation(transform.transform).T + _xyz(transform.transform.translation)
+    transformed = positions @ _rotation(transform.transform).T + _xyz(transform.transform.translation)
     rotated = _rotate_orientations([pose.orientation for pose in poses.poses], transform)
     result = PoseArray(header=transform.header)
     result.poses = [Pose() for _ in poses.poses]
-    for pose, position, orientation in zip(result.poses, moved.tolist(), rotated, strict=True):
+    for pose, position, orientation in zip(result.poses, transformed.tolist(), rotated, strict=True):
         pose.position.x, pose.position.y, pose.position.z = position
         pose.orientation.x, pose.orientation.y, pose.orientation.z, pose.orientation.w = orientation
     return result
@@ -148,8 +148,8 @@ def _rotation(transform: Any) -> Array:
 
 
 def _apply(transform: TransformStamped, point: Array) -> list[float]:
-    moved = _rotation(transform.transform) @ point + _xyz(transform.transform.translation)
-    return [float(value) for value in moved]
+    transformed = _rotation(transform.transform) @ point + _xyz(transform.transform.translation)
+    return [float(value) for value in transformed]
 
 
 def _build_affine(rotation: Iterable[float] | None = None, translation: Iterable[float] | None = None) -> Array:

@@ -76,7 +76,7 @@ class EditReport(NamedTuple):
     @property
     def unmatched(self) -> list[RuleCount]:
         """The rules that changed nothing."""
-        return [one for one in self.rules if not one.changes]
+        return [rule for rule in self.rules if not rule.changes]
 
 
 def edit(

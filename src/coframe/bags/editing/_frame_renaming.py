@@ -44,10 +44,10 @@ def rename_frames(topic: EditedTopic, rule: Rule, needed: bytes = b"") -> Step |
     def step(message: EditedMessage) -> bool:
         data = message.data
         if fields.is_quick or needed in data:
-            new, changed = fields.rename(data, rule.frame)
-            if changed:
+            new, change_count = fields.rename(data, rule.frame)
+            if change_count:
                 message.data = new
-                rule.changes += changed
+                rule.changes += change_count
         return True
 
     return step
@@ -73,14 +73,14 @@ def _of_transforms(rename: Callable[[str], str], rule: Rule, needed: bytes) -> S
     def step(message: EditedMessage) -> bool:
         if needed not in message.data:
             return True
-        transforms, changed = message.transforms(), 0
-        for one in transforms:
-            parent, child = new(one.parent), new(one.child)
-            changed += (parent != one.parent) + (child != one.child)
-            one.parent, one.child = parent, child
-        if changed:
+        transforms, change_count = message.transforms(), 0
+        for transform in transforms:
+            parent, child = new(transform.parent), new(transform.child)
+            change_count += (parent != transform.parent) + (child != transform.child)
+            transform.parent, transform.child = parent, child
+        if change_count:
             message.set_transforms(transforms)
-            rule.changes += changed
+            rule.changes += change_count
         return True
 
     return step
@@ -94,20 +94,20 @@ def _of_description(rename: Callable[[str], str], rule: Rule, needed: bytes) -> 
             return True
         text: Any = deserialize(message.data, cls)
         links = {match[4] for match in _LINK_NAMES.finditer(text.data) if match[2] == "link"}
-        changed = 0
+        change_count = 0
 
         def replace(match: re.Match[str]) -> str:
-            nonlocal changed
+            nonlocal change_count
             if match[4] not in links:  # <gazebo reference="..."> can also name a joint.
                 return match[0]
             new = rename(match[4])
-            changed += new != match[4]
+            change_count += new != match[4]
             return f"{match[1]}{match[3]}{new}{match[3]}"
 
         renamed = _LINK_NAMES.sub(replace, text.data)
-        if changed:
+        if change_count:
             message.data = serialize(cls(data=renamed))
-            rule.changes += changed
+            rule.changes += change_count
         return True
 
     return step

@@ -89,7 +89,7 @@ class Pipeline:
             start = rule.start(start)
             for topic, data in rule.insertions():
                 self._insert(topic, data, number)
-        self.inserted = [one._replace(received=start) for one in self.inserted]
+        self.inserted = [message._replace(received=start) for message in self.inserted]
 
     def route(self, channel: Channel) -> Route:
         """Return the route of the messages of a channel."""

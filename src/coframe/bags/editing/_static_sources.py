@@ -97,7 +97,8 @@ def read_static_transforms(path: Path, names: dict[str, str], survey: Survey) ->
     except OSError as error:
         raise EditError(f"{path} cannot be read: {reason(error)}") from None
     found = [
-        one._replace(parent=names.get(one.parent, one.parent), child=names.get(one.child, one.child)) for one in found
+        mount._replace(parent=names.get(mount.parent, mount.parent), child=names.get(mount.child, mount.child))
+        for mount in found
     ]
     if not found:
         raise EditError(f"{path} contains no static transforms")
@@ -108,7 +109,7 @@ def _read(path: Path, names: dict[str, str], survey: Survey) -> list[StaticTrans
     if path.is_dir() or is_recording(path):
         return _of_recording(path)
     if path.suffix.lower() in _YAML:
-        return [StaticTransform(*one) for one in calibrated_transforms(path, names, survey)]
+        return [StaticTransform(*mount) for mount in calibrated_transforms(path, names, survey)]
     if path.suffix.lower() in _ROBOTS:
         return _of_robot(path)
     raise EditError(

@@ -113,12 +113,14 @@ class Survey:
         found: dict[tuple[str, bytes], FoundTransform] = {}
         for topic, received, message in self._messages(lambda topic: topic.is_static and topic.has_transforms):
             with suppress(DecodeError):
-                for one in message.transforms():
+                for transform in message.transforms():
                     if len(found) < _MAX_STATIC:
-                        names = [str(name, "utf-8", "replace").lstrip("/") for name in (one.parent, one.child)]
+                        names = [
+                            str(name, "utf-8", "replace").lstrip("/") for name in (transform.parent, transform.child)
+                        ]
                         header = message.data[:4]
-                        new = FoundTransform(topic.name, names[0], names[1], received, one, header)
-                        found.setdefault((topic.name, one.child), new)
+                        new = FoundTransform(topic.name, names[0], names[1], received, transform, header)
+                        found.setdefault((topic.name, transform.child), new)
         return list(found.values())
 
     def messages(self, is_selected: Callable[[EditedTopic], bool]) -> Iterator[tuple[EditedTopic, int, EditedMessage]]:
@@ -144,9 +146,9 @@ class Survey:
 
     def _messages(self, is_selected: Callable[[EditedTopic], bool]) -> Iterator[tuple[EditedTopic, int, EditedMessage]]:
         topics = {channel: EditedTopic(channel, channel.topic, self._types) for channel in self._source.channels()}
-        chosen = {channel for channel, topic in topics.items() if is_selected(topic)}
-        if chosen:
-            for channel, received, data in self._source.messages(chosen.__contains__):
+        channels = {channel for channel, topic in topics.items() if is_selected(topic)}
+        if channels:
+            for channel, received, data in self._source.messages(channels.__contains__):
                 yield topics[channel], received, EditedMessage(data, received, received)
 
     def _rename_topic(self, topic: EditedTopic) -> EditedTopic:

@@ -85,13 +85,13 @@ def join_transforms(transforms: Sequence[RecordedTransform], header: bytes) -> b
     order = BYTE_ORDERS[header[:2]]
     head, length_of = struct.Struct(f"{order}iII").pack, struct.Struct(f"{order}I").pack
     out = bytearray(header[:HEADER_SIZE]) + length_of(len(transforms))
-    for one in transforms:
-        seconds, nanoseconds = divmod(one.stamp, SECOND)
-        out += head(seconds, nanoseconds, len(one.parent) + 1)
-        out += one.parent
+    for transform in transforms:
+        seconds, nanoseconds = divmod(transform.stamp, SECOND)
+        out += head(seconds, nanoseconds, len(transform.parent) + 1)
+        out += transform.parent
         out += _STRING_ENDS[-(len(out) + 1) & 3]
-        out += length_of(len(one.child) + 1)
-        out += one.child
+        out += length_of(len(transform.child) + 1)
+        out += transform.child
         out += _STRING_ENDS[HEADER_SIZE - (len(out) + 1) & 7]
-        out += one.pose
+        out += transform.pose
     return bytes(out)

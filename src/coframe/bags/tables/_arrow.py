@@ -26,8 +26,8 @@ def arrow_array(pyarrow: Any, leaf: Leaf, array: NDArray[Any], known: NDArray[np
     """Return the values as an array of Arrow, in which those that are not known are null."""
     type_ = arrow_type(pyarrow, leaf, array.dtype)
     if array.ndim == 2:
-        flat = pyarrow.array(np.ascontiguousarray(array).reshape(-1))
-        return pyarrow.FixedSizeListArray.from_arrays(flat, type=type_, mask=pyarrow.array(~known))
+        flat_array = pyarrow.array(np.ascontiguousarray(array).reshape(-1))
+        return pyarrow.FixedSizeListArray.from_arrays(flat_array, type=type_, mask=pyarrow.array(~known))
     if leaf.kind == "list":
         values = [_to_plain_data(value) if is_known else None for value, is_known in zip(array, known, strict=True)]
         return pyarrow.array(values, type=type_)

@@ -329,11 +329,11 @@ def _read_together(
 ) -> dict[str, TableColumn]:
     """Return all columns of one topic. Each message is decoded once."""
     picks = [each.picks(times, rows) for each in columns]
-    wanted = [np.unique(np.concatenate([each.first, each.second])) for each in picks]
-    values: list[list[Any]] = [[None] * len(indices) for indices in wanted]
-    every = np.unique(np.concatenate(wanted)) if wanted else np.empty(0, np.intp)
-    slots = [np.searchsorted(indices, every) for indices in wanted]
-    needed = [np.isin(every, indices) for indices in wanted]
+    row_numbers = [np.unique(np.concatenate([each.first, each.second])) for each in picks]
+    values: list[list[Any]] = [[None] * len(indices) for indices in row_numbers]
+    every = np.unique(np.concatenate(row_numbers)) if row_numbers else np.empty(0, np.intp)
+    slots = [np.searchsorted(indices, every) for indices in row_numbers]
+    needed = [np.isin(every, indices) for indices in row_numbers]
     place = {int(index): number for number, index in enumerate(every)}
     for index, message in messages.iterate_messages(place):
         number = place[index]
@@ -342,5 +342,5 @@ def _read_together(
                 values[column_number][slots[column_number][number]] = each.read(message)
     return {
         each.label: each.values(chosen, read, indices)
-        for each, chosen, read, indices in zip(columns, picks, values, wanted, strict=True)
+        for each, chosen, read, indices in zip(columns, picks, values, row_numbers, strict=True)
     }

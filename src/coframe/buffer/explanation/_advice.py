@@ -46,22 +46,22 @@ def advice(explanation: Explanation, error: TransformException, *, is_recorded: 
 
 def no_common_time(explanation: Explanation) -> ExtrapolationException:
     """Return the error for frames between which the edges have no common time."""
-    moving = [edge for edge in explanation.edges if not edge.static]
-    intervals = ", ".join(f"{edge.name} from {seconds(edge.oldest)} to {seconds(edge.newest)}" for edge in moving)
+    moving_edges = [edge for edge in explanation.edges if not edge.static]
+    intervals = ", ".join(f"{edge.name} from {seconds(edge.oldest)} to {seconds(edge.newest)}" for edge in moving_edges)
     return ExtrapolationException.with_details(
         f"The edges between {explanation.target!r} and {explanation.source!r} have no common time: {intervals}",
         target=explanation.target,
         source=explanation.source,
-        hint=_no_common_time(explanation) if moving else "",
+        hint=_no_common_time(explanation) if moving_edges else "",
         code="too_old",
         doctor_code="TF013",
     )
 
 
 def _no_common_time(explanation: Explanation) -> str:
-    moving = [edge for edge in explanation.edges if not edge.static]
-    ends = min(moving, key=lambda edge: edge.newest)
-    begins = max(moving, key=lambda edge: edge.oldest)
+    moving_edges = [edge for edge in explanation.edges if not edge.static]
+    ends = min(moving_edges, key=lambda edge: edge.newest)
+    begins = max(moving_edges, key=lambda edge: edge.oldest)
     return hint("no_common_time", limit=ends.name, parent=begins.parent, child=begins.child)
 
 

@@ -176,10 +176,10 @@ def _limit(edges: tuple[ChainEdge, ...], lookup_time: int) -> tuple[str, str] | 
 
 
 def _span(edges: tuple[ChainEdge, ...]) -> tuple[int, int] | None:
-    moving = [edge for edge in edges if not edge.static]
-    if not moving or any(edge.state == "no_data" for edge in moving):
+    moving_edges = [edge for edge in edges if not edge.static]
+    if not moving_edges or any(edge.state == "no_data" for edge in moving_edges):
         return None
-    first, last = max(edge.oldest for edge in moving), min(edge.newest for edge in moving)
+    first, last = max(edge.oldest for edge in moving_edges), min(edge.newest for edge in moving_edges)
     return (first, last) if first <= last else None
 
 

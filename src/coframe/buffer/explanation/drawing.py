@@ -126,8 +126,8 @@ def _reason(explanation: Explanation) -> str:
         )
     if explanation.missing is not None:
         edge = f"{display_name(explanation.missing.parent)} -> {display_name(explanation.missing.child)}"
-        named = f"a transform such as {edge} is missing"
-        reasons.append(named if explanation.missing[:2] == explanation.roots else explanation.missing.text)
+        fault_text = f"a transform such as {edge} is missing"
+        reasons.append(fault_text if explanation.missing[:2] == explanation.roots else explanation.missing.text)
     return "; ".join(reasons)
 
 

@@ -61,9 +61,9 @@ def origin_lines(name: str) -> Iterator[str]:
     from coframe.messages.registry import find  # noqa: PLC0415 - slow import
     from coframe.messages.type_hash import type_hash  # noqa: PLC0415
 
-    whole = "/".join(_parts(name))
-    yield f"# {whole}, {_definition(*_parts(name)).file or 'contained in coframe'}"
-    yield f"# {type_hash(find(whole))}"
+    full_name = "/".join(_parts(name))
+    yield f"# {full_name}, {_definition(*_parts(name)).file or 'contained in coframe'}"
+    yield f"# {type_hash(find(full_name))}"
 
 
 def _parts(name: str) -> tuple[str, str, str]:
@@ -90,9 +90,9 @@ def _definition(package: str, kind: str, name: str) -> Definition:
     except (LookupError, OSError):
         if found is None:
             fail(f"Unknown package '{package}'", "coframe interface packages shows all packages with types.")
-        whole = f"{package}/{kind}/{name}"
+        full_name = f"{package}/{kind}/{name}"
         fail(
-            f"Unknown type '{whole}'",
-            similar_types_hint(whole) or f"coframe interface package {package} shows its types.",
+            f"Unknown type '{full_name}'",
+            similar_types_hint(full_name) or f"coframe interface package {package} shows its types.",
         )
     return read(path)

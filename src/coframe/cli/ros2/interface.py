@@ -137,7 +137,7 @@ for _command in (add, check, remove, stubs):
 
 def _kinds(messages: bool, services: bool, actions: bool) -> list[str]:
     """Return the requested kinds, or all if none was requested."""
-    chosen = [kind for kind, wanted in zip(_TITLES, (messages, services, actions), strict=True) if wanted]
+    chosen = [kind for kind, is_requested in zip(_TITLES, (messages, services, actions), strict=True) if is_requested]
     return chosen or list(_TITLES)
 
 

@@ -32,18 +32,18 @@ def python_value(value: Any) -> Any:
     """Return a `ParameterValue` as a Python value, or None if it is not set."""
     if value.type not in _TYPES:
         return None
-    plain = getattr(value, _TYPES[value.type][1])
-    if isinstance(plain, (bool, int, float, str)):
-        return plain
-    return [int.from_bytes(item, "little") if isinstance(item, bytes) else item for item in plain]
+    builtin_value = getattr(value, _TYPES[value.type][1])
+    if isinstance(builtin_value, (bool, int, float, str)):
+        return builtin_value
+    return [int.from_bytes(item, "little") if isinstance(item, bytes) else item for item in builtin_value]
 
 
 def value_line(value: Any, *, hide_type: bool) -> str | None:
     """Return the line of ``ros2 param get``, or None if the parameter is not set."""
     if value.type not in _TYPES:
         return None
-    plain = python_value(value)
-    return str(plain) if hide_type else f"{_TYPES[value.type][2]}: {plain}"
+    builtin_value = python_value(value)
+    return str(builtin_value) if hide_type else f"{_TYPES[value.type][2]}: {builtin_value}"
 
 
 def description_lines(descriptor: Any) -> Iterator[str]:

@@ -204,11 +204,11 @@ def norm_of(quaterniond: Any) -> float:
 
 def read_edge(message: Any) -> Transform:
     """Return a TransformStamped message as a transform without normalizing its quaternion."""
-    moved, rotated = message.transform.translation, message.transform.rotation
-    values = np.array([rotated.x, rotated.y, rotated.z, rotated.w])
+    translation, rotation = message.transform.translation, message.transform.rotation
+    values = np.array([rotation.x, rotation.y, rotation.z, rotation.w])
     norm = float(np.linalg.norm(values))
     return Transform(
-        [moved.x, moved.y, moved.z],
+        [translation.x, translation.y, translation.z],
         values / norm if norm > 0 and np.isfinite(norm) else [0.0, 0.0, 0.0, 1.0],
         target=message.header.frame_id,
         source=message.child_frame_id,

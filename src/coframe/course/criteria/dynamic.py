@@ -180,8 +180,8 @@ def _check_dimensions(sheet: Sheet, task: Task, messages: list[Received]) -> Non
 
 
 def _offsets(messages: list[Received], child: str) -> np.ndarray[Any, np.dtype[np.float64]]:
-    moved = [each.transform.translation for each in _samples(messages, child)]
-    return np.array([[each.x, each.y, each.z] for each in moved]).reshape(-1, 3)
+    translations = [each.transform.translation for each in _samples(messages, child)]
+    return np.array([[each.x, each.y, each.z] for each in translations]).reshape(-1, 3)
 
 
 def _dimension_cause(offsets: Any, correct: tuple[float, ...], first: float, second: float) -> str:
@@ -233,16 +233,16 @@ def _motion_observation(samples: list[Any], cause: str) -> str:
 
 
 def _check_times(sheet: Sheet, task: Task, published_messages: _Published) -> None:
-    wanted, received = task.assignment.dynamic_rate, published_messages.simulated
+    expected_rate, received = task.assignment.dynamic_rate, published_messages.simulated
     arm = [each for each in received if any(edge.child_frame_id == "link1" for edge in each.message.transforms)]
     rate = mean_rate(arm)
     sheet.check(
         3,
-        f"the transforms are sent at {wanted:g} Hz",
-        abs(rate - wanted) <= 0.1 * wanted,
-        expected=f"{wanted:g} Hz, 10 % more or less",
+        f"the transforms are sent at {expected_rate:g} Hz",
+        abs(rate - expected_rate) <= 0.1 * expected_rate,
+        expected=f"{expected_rate:g} Hz, 10 % more or less",
         observed=f"{rate:.3g} Hz",
-        cause=period_cause(rate, wanted),
+        cause=period_cause(rate, expected_rate),
         read=_CHAPTER,
     )
     _check_stamps(sheet, arm)
@@ -253,18 +253,18 @@ def _check_stamps(sheet: Sheet, arm: list[Received]) -> None:
     stamps = [stamp_ns(each) for each in _samples(arm, "link1")]
     ahead = [stamp_ns(edge) - each.time for each in arm for edge in each.message.transforms]
     increasing = all(later > earlier for earlier, later in itertools.pairwise(stamps))
-    off = max(ahead, key=abs, default=0)
+    offset = max(ahead, key=abs, default=0)
     sheet.check(
         2,
         "the stamps are the current time and increase",
-        bool(stamps) and increasing and abs(off) <= 5 * STEP,
+        bool(stamps) and increasing and abs(offset) <= 5 * STEP,
         expected="stamps from the node's clock, each later than the previous one",
         observed="no transform"
         if not stamps
-        else f"stamps that are up to {to_seconds(abs(off)):.3g} s {'ahead of' if off > 0 else 'behind'} the clock"
-        if abs(off) > 5 * STEP
+        else f"stamps that are up to {to_seconds(abs(offset)):.3g} s {'ahead of' if offset > 0 else 'behind'} the clock"
+        if abs(offset) > 5 * STEP
         else "repeated or decreasing stamps",
-        cause=_stamp_cause(stamps, off),
+        cause=_stamp_cause(stamps, offset),
         read=_TIME_CHAPTER,
     )
 

@@ -128,15 +128,15 @@ def _check_topic(sheet: Sheet, poses: list[Received], topic: str, names: list[st
 
 
 def _check_rate(sheet: Sheet, task: Task, steady_messages: list[Received]) -> None:
-    wanted = task.assignment.listener_rate
+    expected_rate = task.assignment.listener_rate
     rate = mean_rate(steady_messages)
     sheet.check(
         4,
-        f"the poses are sent at {wanted:g} Hz",
-        abs(rate - wanted) <= 0.1 * wanted,
-        expected=f"{wanted:g} Hz, 10 % more or less",
+        f"the poses are sent at {expected_rate:g} Hz",
+        abs(rate - expected_rate) <= 0.1 * expected_rate,
+        expected=f"{expected_rate:g} Hz, 10 % more or less",
         observed=f"{rate:.3g} Hz",
-        cause=period_cause(rate, wanted),
+        cause=period_cause(rate, expected_rate),
         read=_READ,
     )
 

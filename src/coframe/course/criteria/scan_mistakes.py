@@ -110,31 +110,34 @@ def _trials(scan: SentScan) -> Iterator[tuple[str, Array]]:
     """Yield each common mistake with the cloud that it would give."""
     used = valid_beams(scan.message)
     ranges, angles = ranges_and_angles(scan.message)
-    flat = _points(ranges[used], angles[used])
-    rotated, moved = scan.pose.rotation, scan.pose.translation
+    scan_points = _points(ranges[used], angles[used])
+    rotation, translation = scan.pose.rotation, scan.pose.translation
 
     def placed(points: Array) -> Array:
         return np.asarray(scan.pose @ points)
 
     yield (
         "the lookup uses the latest transform, Time(), instead of the one at the stamp of the scan",
-        np.asarray(scan.earlier @ flat),
+        np.asarray(scan.earlier @ scan_points),
     )
     for frame, pose in scan.mounts.items():
         if frame != scan.message.header.frame_id:
             yield (
                 f"the source frame is always {frame!r}: use scan.header.frame_id, the frame of the scan",
-                np.asarray(pose @ flat),
+                np.asarray(pose @ scan_points),
             )
     yield (
         "target and source are swapped: lookup_transform('base_link', scan.header.frame_id, ...)",
-        np.asarray(scan.pose.inverse() @ flat),
+        np.asarray(scan.pose.inverse() @ scan_points),
     )
-    yield "R is used instead of its transpose: points @ R.T + t for points in rows", flat @ rotated + moved
-    yield "the translation of the transform is not added", flat @ rotated.T
-    yield "the rotation of the transform is not applied", flat + moved
-    yield "the points are not transformed: they are still in the frame of the scan", flat
-    yield "the points are moved before they are turned: points @ R.T + t", (flat + moved) @ rotated.T
+    yield (
+        "R is used instead of its transpose: points @ R.T + t for points in rows",
+        scan_points @ rotation + translation,
+    )
+    yield "the translation of the transform is not added", scan_points @ rotation.T
+    yield "the rotation of the transform is not applied", scan_points + translation
+    yield "the points are not transformed: they are still in the frame of the scan", scan_points
+    yield "the points are moved before they are turned: points @ R.T + t", (scan_points + translation) @ rotation.T
     for cause, changed in _angle_mistakes(scan.message, used, ranges, angles):
         yield cause, placed(changed)
 

@@ -44,14 +44,16 @@ def check(task: Task) -> Sheet:
                 cause=_prefix_cause(parents, prefix),
                 read=_READ,
             )
-        bare = sorted(name for name in parents if name in {*_ARM_PARENTS, "base_link"})
+        unprefixed_frames = sorted(name for name in parents if name in {*_ARM_PARENTS, "base_link"})
         sheet.check(
             2,
             "no frame without a prefix is published twice",
-            bool(parents) and not bare,
+            bool(parents) and not unprefixed_frames,
             expected="only frames shared by both robots, such as map, have no prefix",
-            observed=f"frames without a prefix: {', '.join(bare)}" if bare else "no transforms",
-            cause="these frame names have no prefix" if bare else "",
+            observed=f"frames without a prefix: {', '.join(unprefixed_frames)}"
+            if unprefixed_frames
+            else "no transforms",
+            cause="these frame names have no prefix" if unprefixed_frames else "",
             read=_READ,
         )
         trees = FrameTrees.from_parents(parents)

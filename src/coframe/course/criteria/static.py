@@ -134,9 +134,9 @@ def _round_values(values: tuple[float, ...] | list[float]) -> list[float]:
 
 
 def _check_delivery(sheet: Sheet, task: Task, sent_transforms: _Sent) -> None:
-    wanted = [mount.frame for mount in task.assignment.mounts]
+    expected_frames = [mount.frame for mount in task.assignment.mounts]
     # Only frames that were sent: a wrong name has lost its points already.
-    frames = [frame for frame in wanted if sent_transforms.last(frame) is not None] or wanted
+    frames = [frame for frame in expected_frames if sent_transforms.last(frame) is not None] or expected_frames
     on_static = [frame for frame in frames if frame in sent_transforms.static and frame not in sent_transforms.dynamic]
     on_tf = [frame for frame in frames if frame in sent_transforms.dynamic]
     wrong_topic = _WRONG_BROADCASTER if on_tf else ""

@@ -61,8 +61,8 @@ def check(task: Task) -> Sheet:
         wrong = []
         for each in poses:
             now = stamp_ns(each.message)
-            then = now - _AGE
-            correct = robot.base(now).inverse() @ robot.base(then) @ robot.end_effector(then)
+            past = now - _AGE
+            correct = robot.base(now).inverse() @ robot.base(past) @ robot.end_effector(past)
             wrong.append(difference_text(read_pose(each.message), correct, _INTERPOLATION_TOLERANCE))
         bad = [text for text in wrong if text]
         sheet.check(

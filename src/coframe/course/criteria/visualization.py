@@ -153,10 +153,12 @@ def _check_configuration(sheet: Sheet, config: RvizConfig | str) -> None:
 def _check_tree(sheet: Sheet, task: Task, messages: list[Received]) -> None:
     edges = [edge for each in messages for edge in each.message.transforms]
     pairs = list(dict.fromkeys((edge.header.frame_id, edge.child_frame_id) for edge in edges))
-    wanted = [(parent, child) for child, parent in _TREE.items()]
-    missing = [f"{parent} -> {child}" for parent, child in wanted if (parent, child) not in pairs]
+    expected_edges = [(parent, child) for child, parent in _TREE.items()]
+    missing = [f"{parent} -> {child}" for parent, child in expected_edges if (parent, child) not in pairs]
     others = [f"{parent} -> {child}" for parent, child in pairs if _TREE.get(child) != parent]
-    causes = [edge_cause(parent, child, pairs, _FRAMES) for parent, child in wanted if (parent, child) not in pairs]
+    causes = [
+        edge_cause(parent, child, pairs, _FRAMES) for parent, child in expected_edges if (parent, child) not in pairs
+    ]
     sheet.check(
         2,
         "the tree has all transforms of the robot",

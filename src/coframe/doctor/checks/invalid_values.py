@@ -34,10 +34,10 @@ def find(observation: Observation) -> Iterator[Finding]:
     if not len(transforms):
         return
     with np.errstate(invalid="ignore", over="ignore"):
-        off = np.abs(np.sqrt(transforms.squared_norms) - 1.0)
+        deviations = np.abs(np.sqrt(transforms.squared_norms) - 1.0)
         zero = transforms.finite & (transforms.squared_norms == 0.0)
         refused = transforms.finite & ~zero & (np.abs(transforms.squared_norms - 1.0) >= NORM_TOLERANCE)
-        rounded = transforms.finite & ~zero & ~refused & (off > _ROUNDING)
+        rounded = transforms.finite & ~zero & ~refused & (deviations > _ROUNDING)
         # With the same mistake, quaternions of a moving edge can be nearly normalized at some angles.
         rounded &= ~np.isin(transforms.edge, transforms.edge[refused])
     yield from _kind(

@@ -83,15 +83,15 @@ def _bursts(observation: Observation) -> Iterator[Finding]:
     edges = [edge for edge in observation.dynamic if edge.count > 10 and edge.period < _MIN_PAUSE / 5]
     if not edges:
         return
-    arrived = np.sort(np.concatenate([edge.arrived for edge in edges]))
+    arrival_times = np.sort(np.concatenate([edge.arrived for edge in edges]))
     stamps = np.concatenate([edge.stamp for edge in edges])[
         np.argsort(np.concatenate([edge.arrived for edge in edges]), kind="stable")
     ]
-    pauses = np.flatnonzero(np.diff(arrived) > _MIN_PAUSE)
+    pauses = np.flatnonzero(np.diff(arrival_times) > _MIN_PAUSE)
     for row in pauses.tolist():
-        pause = int(arrived[row + 1] - arrived[row])
+        pause = int(arrival_times[row + 1] - arrival_times[row])
         # The stamps of the messages that arrive within a tenth of the pause after it cover most of the pause.
-        burst = stamps[row + 1 :][arrived[row + 1 :] < arrived[row + 1] + pause // 10]
+        burst = stamps[row + 1 :][arrival_times[row + 1 :] < arrival_times[row + 1] + pause // 10]
         if len(burst) > 3 and int(burst.max() - burst.min()) > pause // 2:
             yield Finding(
                 code=CODE,

@@ -70,10 +70,12 @@ def _find_by_stamps(observation: Observation) -> Iterator[Finding]:
             if np.median(np.abs(lags - median)) < _MAX_SPREAD:
                 offsets.append((median, edge))
     correct = [edge for offset, edge in offsets if abs(offset) < _MAX_LAG]
-    off = sorted(((offset, edge) for offset, edge in offsets if abs(offset) >= _MAX_LAG), key=lambda pair: pair[0])
-    if not correct or len(off) < 2 or off[-1][0] - off[0][0] > _MAX_SPREAD:
+    wrong_offsets = sorted(
+        ((offset, edge) for offset, edge in offsets if abs(offset) >= _MAX_LAG), key=lambda pair: pair[0]
+    )
+    if not correct or len(wrong_offsets) < 2 or wrong_offsets[-1][0] - wrong_offsets[0][0] > _MAX_SPREAD:
         return
-    edges = [edge for _, edge in off]
+    edges = [edge for _, edge in wrong_offsets]
     shared = observation.offset(edges[len(edges) // 2].name)
     yield Finding(
         code=CODE,

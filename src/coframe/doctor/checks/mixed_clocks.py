@@ -96,33 +96,33 @@ def _repair(
 
 def _find_static_offsets(observation: Observation, usual_clock: str) -> Iterator[Finding]:
     """Yield a note for static transforms: tf2 ignores their stamps, but their publishers use another clock."""
-    moving = [edge for edge in observation.dynamic if observation.clocks.get(edge.name) == usual_clock]
-    if not moving or usual_clock == "wall":
+    moving_edges = [edge for edge in observation.dynamic if observation.clocks.get(edge.name) == usual_clock]
+    if not moving_edges or usual_clock == "wall":
         return
-    low = min(int(edge.stamp.min()) for edge in moving)
-    high = max(int(edge.stamp.max()) for edge in moving)
-    off = [
+    low = min(int(edge.stamp.min()) for edge in moving_edges)
+    high = max(int(edge.stamp.max()) for edge in moving_edges)
+    edges = [
         edge
         for edge in observation.static
         if ((edge.stamp > high + SAME_CLOCK) | ((edge.stamp != 0) & (edge.stamp < low - SAME_CLOCK))).any()
     ]
     zero = sum(int((edge.stamp == 0).all()) for edge in observation.static)
-    if off:
+    if edges:
         yield Finding(
             code=CODE,
             severity=Severity.NOTE,
-            text=f"the stamps of {len(off)} of {len(observation.static)} static transforms use a different clock from "
-            f"/tf ({seconds(off[0].first_stamp)}, {duration(abs(off[0].first_stamp - high))} off), {zero} have the "
+            text=f"the stamps of {len(edges)} of {len(observation.static)} static transforms use a different clock "
+            f"from /tf ({seconds(edges[0].first_stamp)}, {duration(abs(edges[0].first_stamp - high))} off), {zero} have the "
             "stamp 0; tf2 ignores the stamps of static transforms",
             fix="Start their publishers with --ros-args -p use_sim_time:=true, like the other nodes.",
             harm="A static transform is valid for all times, regardless of its stamp. But its publisher uses another "
             "clock "
             "than the other nodes, and its other messages will not match theirs.",
-            edge=off[0].key,
-            edges=tuple(edge.key for edge in off),
-            frames=frozenset(edge.child for edge in off),
-            first_stamp=off[0].first_stamp,
-            publishers=publishers_of(off),
+            edge=edges[0].key,
+            edges=tuple(edge.key for edge in edges),
+            frames=frozenset(edge.child for edge in edges),
+            first_stamp=edges[0].first_stamp,
+            publishers=publishers_of(edges),
         )
 
 

@@ -172,20 +172,20 @@ def _other_mounts(observation: Observation, robot: Robot) -> Iterator[Finding]:
         if child in joint_above and joint_above[child].parent == parent:
             continue  # already compared with the joint itself
         poses = poses or robot.frames()
-        expected = poses[parent].inverse() @ poses[child]
-        found = _deviation(edge, np.array([edge.count - 1]), expected)
+        expected_pose = poses[parent].inverse() @ poses[child]
+        found = _deviation(edge, np.array([edge.count - 1]), expected_pose)
         if _is_different(found):
-            yield _mount(edge, "the fixed joints between these links", expected, found)
+            yield _mount(edge, "the fixed joints between these links", expected_pose, found)
 
 
-def _mount(edge: Edge, joint: str, expected: Transform, difference: _Difference) -> Finding:
-    pose = [*expected.translation.tolist(), *expected.quaternion.tolist()]
+def _mount(edge: Edge, joint: str, expected_pose: Transform, difference: _Difference) -> Finding:
+    pose = [*expected_pose.translation.tolist(), *expected_pose.quaternion.tolist()]
     published = Transform(edge.values[-1, :3], edge.rotations[-1])
     return Finding(
         code=CODE,
         severity=Severity.WARNING,
         text=f"differs from {joint} of the robot description by {difference.text}: published {_pose_text(published)}, "
-        f"described {_pose_text(expected)}{_agreement_text(difference)}",
+        f"described {_pose_text(expected_pose)}{_agreement_text(difference)}",
         fix=(difference.mistake.fix if difference.mistake else "Decide which pose is correct.")
         + " If the pose of the robot description is correct, publish it only with "
         f"robot_state_publisher (its values: `{static_command(*edge.key, pose)}`); otherwise correct <origin> in "
@@ -252,11 +252,11 @@ def _wrong_position(
     return None
 
 
-def _deviation(edge: Edge, rows: NDArray[np.intp], expected: Transform, *, explained: bool = True) -> _Difference:
+def _deviation(edge: Edge, rows: NDArray[np.intp], expected_pose: Transform, *, explained: bool = True) -> _Difference:
     """Return the median difference between rows of an edge and the expected poses, and its explanation."""
     published = edge.poses(rows)
     right = np.empty_like(published)
-    right[:, :3], right[:, 3:] = expected.translation, expected.quaternion
+    right[:, :3], right[:, 3:] = expected_pose.translation, expected_pose.quaternion
     meters = float(np.median(np.linalg.norm(published[:, :3] - right[:, :3], axis=1)))
     radians = float(np.median(angles_between(published[:, 3:], right[:, 3:])))
     found = _Difference(meters, radians, len(rows), None)

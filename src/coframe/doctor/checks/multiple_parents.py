@@ -62,9 +62,9 @@ def _make_finding(child: str, edges: list[Edge]) -> Finding:
 
 
 def _changes(edges: list[Edge]) -> int:
-    arrived = np.concatenate([edge.arrived for edge in edges])
+    arrival_times = np.concatenate([edge.arrived for edge in edges])
     parent = np.concatenate([np.full(edge.count, hash(edge.parent)) for edge in edges])
-    return int(np.count_nonzero(np.diff(parent[np.argsort(arrived, kind="stable")])))
+    return int(np.count_nonzero(np.diff(parent[np.argsort(arrival_times, kind="stable")])))
 
 
 def _source_text(edge: Edge) -> str:

@@ -56,11 +56,11 @@ def _jumps(edge: Edge) -> Iterator[Finding]:
     seconds = np.maximum(np.abs(edge.steps), 1) / SECOND
     far = (edge.distances > _MIN_DISTANCE) & (edge.distances > _MIN_STEP_RATIO * np.median(edge.distances))
     far &= edge.distances / seconds > _MIN_SPEED
-    turned = (edge.rotation_steps > _MIN_ANGLE) & (
+    has_rotated = (edge.rotation_steps > _MIN_ANGLE) & (
         edge.rotation_steps > _MIN_STEP_RATIO * np.median(edge.rotation_steps)
     )
-    turned &= edge.rotation_steps / seconds > _MIN_ANGULAR_SPEED
-    rows = np.flatnonzero(far | turned)
+    has_rotated &= edge.rotation_steps / seconds > _MIN_ANGULAR_SPEED
+    rows = np.flatnonzero(far | has_rotated)
     if not len(rows):
         return
     worst = int(rows[np.argmax(edge.distances[rows] + edge.rotation_steps[rows])])

@@ -29,9 +29,10 @@ def find(observation: Observation) -> Iterator[Finding]:
     by_root: dict[str, list[Edge]] = {}
     for edge in observation.edges:
         by_root.setdefault(observation.root(edge.child), []).append(edge)
-    tried = others[:_MAX_TREES]
+    candidates = others[:_MAX_TREES]
     likely = {
-        root: missing_edge(_frames_from_root(observation, main), _frames_from_root(observation, root)) for root in tried
+        root: missing_edge(_frames_from_root(observation, main), _frames_from_root(observation, root))
+        for root in candidates
     }
     unknown = [root for root in others if likely.get(root) is None]
     if len(unknown) >= _MIN_SIMILAR_TREES:

@@ -25,9 +25,9 @@ _MIN_TRANSFORMS = 3
 def find(observation: Observation) -> Iterator[Finding]:
     """Yield one finding per sensor."""
     for sensor in observation.sensors:
-        moving = [edge for edge in observation.path(sensor.frame) if not edge.static]
+        moving_edges = [edge for edge in observation.path(sensor.frame) if not edge.static]
         behind = np.zeros(len(sensor.stamp), dtype=np.int64)
-        for edge in moving:
+        for edge in moving_edges:
             # The newest stamp in the buffer when the message arrived.
             newest = np.maximum.accumulate(edge.stamp)
             row = np.searchsorted(edge.arrived, sensor.arrived, side="right") - 1
@@ -35,7 +35,7 @@ def find(observation: Observation) -> Iterator[Finding]:
         late = np.flatnonzero((behind > observation.cache) & (sensor.stamp != 0))
         if len(late) < _MIN_TRANSFORMS or sensor.topic not in observation.clocks:
             continue
-        if any(observation.clocks.get(edge.name) != observation.clocks[sensor.topic] for edge in moving):
+        if any(observation.clocks.get(edge.name) != observation.clocks[sensor.topic] for edge in moving_edges):
             continue  # with stamps from another clock, no cache is long enough
         need = int(np.ceil(behind.max() / SECOND)) + 1
         yield Finding(

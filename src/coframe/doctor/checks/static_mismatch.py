@@ -30,9 +30,9 @@ _CHANGES = 3
 
 def find(observation: Observation) -> Iterator[Finding]:
     """Yield one finding per edge."""
-    moving = [edge.stamp for edge in observation.dynamic if not edge.constant]
+    moving_stamps = [edge.stamp for edge in observation.dynamic if not edge.constant]
     for edge in filter(_should_be_static, observation.dynamic):
-        stamps = np.concatenate(moving) if moving else edge.stamp[:0]
+        stamps = np.concatenate(moving_stamps) if moving_stamps else edge.stamp[:0]
         if np.mean(np.isin(edge.stamp, stamps)) < _MIN_COMMON_SHARE:
             command = static_command(*edge.key, edge.values[-1].tolist())
             yield Finding(

@@ -126,9 +126,9 @@ def _wrong_optical_axes(observation: Observation, edge: Edge) -> Iterator[Findin
     """Yield a finding for an optical frame in which no camera can look: by REP-103 its z points forward, x right."""
     found = wrong_axes(observation, edge)
     if found is not None:
-        turned = rotation_text(found.pose[3:])
+        rotation_description = rotation_text(found.pose[3:])
         command = static_command(*found.edge.key, found.pose.tolist())
-        fix = f"{found.fix} The rotation is {turned}: `{command}`.".lstrip()
+        fix = f"{found.fix} The rotation is {rotation_description}: `{command}`.".lstrip()
         yield _make_finding(found.edge, found.text, fix, pose=found.pose)
 
 
@@ -141,13 +141,13 @@ def _find_below_ground(observation: Observation) -> Iterator[Finding]:
         seen.add(sensor.frame)
         chain = observation.path(sensor.frame)
         mount = next((edge for edge in chain if edge.static or edge.constant), None)
-        moving = [edge for edge in chain if not (edge.static or edge.constant)]
-        if len(chain) - len(moving) != 1 or mount is not chain[0] or mount is None:
+        moving_edges = [edge for edge in chain if not (edge.static or edge.constant)]
+        if len(chain) - len(moving_edges) != 1 or mount is not chain[0] or mount is None:
             continue  # of several mounts, any may be wrong
-        is_planar = moving and all(
+        is_planar = moving_edges and all(
             np.abs(edge.values[:, 2]).max() < _MAX_PLANAR_DEVIATION
             and np.abs(edge.rotations[:, :2]).max() < _MAX_PLANAR_DEVIATION / 2
-            for edge in moving
+            for edge in moving_edges
         )
         if not is_planar or mount.values[-1, 2] > _MIN_HEIGHT:
             continue

@@ -162,7 +162,9 @@ class _Commands:
             index += 1
 
     def _words(self, arguments: str) -> list[str]:
-        given = [_expand_variables(quoted or bare, self._variables) for quoted, bare in _WORD.findall(arguments)]
+        given = [
+            _expand_variables(quoted or unquoted, self._variables) for quoted, unquoted in _WORD.findall(arguments)
+        ]
         return [word for each in given for word in each.split(";") if word]
 
     def _define(self, command: str, words: list[str]) -> None:

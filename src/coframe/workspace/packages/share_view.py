@@ -33,14 +33,14 @@ def share_of_source(package: Path, name: str) -> Path:
         package: The source folder.
         name: Name of the package.
     """
-    moved = {
+    moved_paths = {
         relative: source
         for relative, source in installed_files(package, name).items()
         if source.absolute() != (package / relative).absolute()
     }
-    if not moved or os.name != "posix":  # Links need special rights on Windows.
+    if not moved_paths or os.name != "posix":  # Links need special rights on Windows.
         return package
-    links = _links(package, moved)
+    links = _links(package, moved_paths)
     key = hashlib.sha256(json.dumps(links, sort_keys=True).encode()).hexdigest()[:16]
     folder = _cache() / "share" / key / name
     try:
@@ -63,7 +63,9 @@ def _links(package: Path, moved_paths: dict[str, Path]) -> dict[str, str]:
     A folder that contains an installed file is a folder of links itself.
     """
     links = {relative: str(source.absolute()) for relative, source in moved_paths.items()}
-    taken = {str(each) for relative in links for each in (PurePosixPath(relative), *PurePosixPath(relative).parents)}
+    used_names = {
+        str(each) for relative in links for each in (PurePosixPath(relative), *PurePosixPath(relative).parents)
+    }
     listed: set[tuple[str, Path]] = set()
 
     def add_contents(relative_path: str, origin: Path | None) -> None:
@@ -72,8 +74,8 @@ def _links(package: Path, moved_paths: dict[str, Path]) -> dict[str, str]:
         listed.add((relative_path, origin))
         for each in contents(origin):
             path = f"{relative_path}/{each.name}" if relative_path else each.name
-            if path not in taken:
-                taken.add(path)
+            if path not in used_names:
+                used_names.add(path)
                 links[path] = str(each.absolute())
 
     for relative, source in sorted(moved_paths.items()):

@@ -72,10 +72,10 @@ class Clock(Rule):
 
         def convert(message: EditedMessage) -> bool:
             received = message.received
-            new, changed = stamps.change(message.data, lambda stamp: self._convert_stamp(stamp, received))
-            if changed:
+            new, change_count = stamps.change(message.data, lambda stamp: self._convert_stamp(stamp, received))
+            if change_count:
                 message.data = new
-                self.changes += changed
+                self.changes += change_count
             return True
 
         if _is_clock(topic):
@@ -83,14 +83,14 @@ class Clock(Rule):
         return self._convert_transforms if topic.has_transforms else convert
 
     def _convert_transforms(self, message: EditedMessage) -> bool:
-        transforms, changed = message.transforms(), 0
-        for one in transforms:
-            new = self._convert_stamp(one.stamp, message.received) if one.stamp else 0
-            changed += new != one.stamp
-            one.stamp = new
-        if changed:
+        transforms, change_count = message.transforms(), 0
+        for transform in transforms:
+            new = self._convert_stamp(transform.stamp, message.received) if transform.stamp else 0
+            change_count += new != transform.stamp
+            transform.stamp = new
+        if change_count:
             message.set_transforms(transforms)
-            self.changes += changed
+            self.changes += change_count
         return True
 
     def _tick(self, receive_time: int, simulated: int) -> None:

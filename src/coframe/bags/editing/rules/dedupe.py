@@ -60,16 +60,17 @@ class Dedupe(Rule):
 
     def _transforms(self, topic: str, message: EditedMessage) -> bool:
         transforms = message.transforms()
-        kept = [
-            one
-            for one in transforms
-            if not one.stamp or self._is_new((topic, one.child), (one.stamp, one.parent), one.pose)
+        kept_transforms = [
+            transform
+            for transform in transforms
+            if not transform.stamp
+            or self._is_new((topic, transform.child), (transform.stamp, transform.parent), transform.pose)
         ]
-        if len(kept) == len(transforms):
+        if len(kept_transforms) == len(transforms):
             return True
-        self.changes += len(transforms) - len(kept)
-        message.set_transforms(kept)
-        return bool(kept)
+        self.changes += len(transforms) - len(kept_transforms)
+        message.set_transforms(kept_transforms)
+        return bool(kept_transforms)
 
     def _is_new(self, key: Hashable, what: Hashable, value: Hashable) -> bool:
         """Store a message, and return whether it differs from all earlier messages."""

@@ -33,12 +33,12 @@ class DropInvalid(Rule):
     def _drop(self, message: EditedMessage) -> bool:
         transforms = message.transforms()
         order = BYTE_ORDERS[message.data[:2]] if transforms else "<"
-        kept = [one for one in transforms if _is_accepted(one, order)]
-        if len(kept) == len(transforms):
+        kept_transforms = [transform for transform in transforms if _is_accepted(transform, order)]
+        if len(kept_transforms) == len(transforms):
             return True
-        self.changes += len(transforms) - len(kept)
-        message.set_transforms(kept)
-        return bool(kept)
+        self.changes += len(transforms) - len(kept_transforms)
+        message.set_transforms(kept_transforms)
+        return bool(kept_transforms)
 
 
 def _is_accepted(transform: RecordedTransform, order: str) -> bool:

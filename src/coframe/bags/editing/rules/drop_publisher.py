@@ -69,7 +69,7 @@ class DropPublisher(Rule):
         poses: list[NDArray[np.float64]] = []
         for topic, _, message in survey.messages(lambda one: one.has_transforms and not one.is_static):
             del topic
-            poses += [_pose(one, message) for one in message.transforms() if self._is_wanted(one)]
+            poses += [_pose(transform, message) for transform in message.transforms() if self._is_wanted(transform)]
             if len(poses) >= _SEED_COUNT:
                 break
         self._ends = _tracks(poses)
@@ -114,12 +114,16 @@ class DropPublisher(Rule):
         if self._child not in message.data:
             return True
         transforms = message.transforms()
-        kept = [one for one in transforms if not (self._is_wanted(one) and self._is_of_publisher(one, message))]
-        if len(kept) == len(transforms):
+        kept_transforms = [
+            transform
+            for transform in transforms
+            if not (self._is_wanted(transform) and self._is_of_publisher(transform, message))
+        ]
+        if len(kept_transforms) == len(transforms):
             return True
-        self.changes += len(transforms) - len(kept)
-        message.set_transforms(kept)
-        return bool(kept)
+        self.changes += len(transforms) - len(kept_transforms)
+        message.set_transforms(kept_transforms)
+        return bool(kept_transforms)
 
     def _is_of_publisher(self, transform: RecordedTransform, message: EditedMessage) -> bool:
         if not self._track:
@@ -143,8 +147,8 @@ def _pose(transform: RecordedTransform, message: EditedMessage) -> NDArray[np.fl
 
 
 def _distance(first: NDArray[np.float64], second: NDArray[np.float64]) -> float:
-    turned = min(float(np.linalg.norm(first[3:] - second[3:])), float(np.linalg.norm(first[3:] + second[3:])))
-    return float(np.linalg.norm(first[:3] - second[:3])) + turned
+    angle = min(float(np.linalg.norm(first[3:] - second[3:])), float(np.linalg.norm(first[3:] + second[3:])))
+    return float(np.linalg.norm(first[:3] - second[:3])) + angle
 
 
 def _nearest_end(pose: NDArray[np.float64], ends: list[NDArray[np.float64]]) -> int:

@@ -71,13 +71,13 @@ class Rate(Rule):
 
     def _thin_transforms(self, message: EditedMessage) -> bool:
         transforms = message.transforms()
-        kept = [one for one in transforms if self._is_due(one.child, message.received)]
-        if len(kept) == len(transforms):
+        kept_transforms = [transform for transform in transforms if self._is_due(transform.child, message.received)]
+        if len(kept_transforms) == len(transforms):
             return True
-        if not kept:
+        if not kept_transforms:
             self.changes += 1
             return False
-        message.set_transforms(kept)
+        message.set_transforms(kept_transforms)
         return True
 
     def nearest(self, survey: Survey) -> str:

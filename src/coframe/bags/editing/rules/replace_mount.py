@@ -44,15 +44,15 @@ class ReplaceMount(Rule):
     def _replace(self, message: EditedMessage) -> bool:
         if self._child not in message.data:
             return True
-        transforms, changed = message.transforms(), 0
+        transforms, change_count = message.transforms(), 0
         pose = message.pack_pose(self._pose)
-        for one in transforms:
-            if one.child.removeprefix(b"/") == self._child:
-                one.pose = pose
-                changed += 1
-        if changed:
+        for transform in transforms:
+            if transform.child.removeprefix(b"/") == self._child:
+                transform.pose = pose
+                change_count += 1
+        if change_count:
             message.set_transforms(transforms)
-            self.changes += changed
+            self.changes += change_count
         return True
 
     def nearest(self, survey: Survey) -> str:

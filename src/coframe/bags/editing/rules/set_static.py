@@ -69,14 +69,16 @@ class SetStatic(Rule):
             EditError: The file cannot be read.
         """
         if self._file is not None:
-            for one in read_static_transforms(self._file, self._names, survey):
-                self._add(one)
+            for transform in read_static_transforms(self._file, self._names, survey):
+                self._add(transform)
         known = survey.static_transforms()
-        there = {one.child for one in known}
-        self._missing_transforms = [one for name, one in self._set.items() if name.decode() not in there]
+        there = {transform.child for transform in known}
+        self._missing_transforms = [transform for name, transform in self._set.items() if name.decode() not in there]
         topics = [name for name in survey.topics if name.rpartition("/")[2] == "tf_static"]
         of_parent = [
-            one.topic for one in known if {one.child, one.parent} & {new.parent for new in self._missing_transforms}
+            transform.topic
+            for transform in known
+            if {transform.child, transform.parent} & {new.parent for new in self._missing_transforms}
         ]
         default = TF_STATIC_TOPIC if TF_STATIC_TOPIC in topics or len(topics) != 1 else topics[0]
         self._topic = of_parent[0] if of_parent else default
@@ -88,32 +90,34 @@ class SetStatic(Rule):
         return self._replace if topic.is_static else self._remove
 
     def _replace(self, message: EditedMessage) -> bool:
-        transforms, changed = message.transforms(), 0
-        for one in transforms:
-            new = self._set.get(one.child.removeprefix(b"/"))
+        transforms, change_count = message.transforms(), 0
+        for transform in transforms:
+            new = self._set.get(transform.child.removeprefix(b"/"))
             if new is not None:
-                one.parent, one.pose = new.parent.encode(), message.pack_pose(new.pose)
-                changed += 1
-        if changed:
+                transform.parent, transform.pose = new.parent.encode(), message.pack_pose(new.pose)
+                change_count += 1
+        if change_count:
             message.set_transforms(transforms)
-            self.changes += changed
+            self.changes += change_count
         return True
 
     def _remove(self, message: EditedMessage) -> bool:
         transforms = message.transforms()
-        kept = [one for one in transforms if one.child.removeprefix(b"/") not in self._set]
-        if len(kept) == len(transforms):
+        kept_transforms = [transform for transform in transforms if transform.child.removeprefix(b"/") not in self._set]
+        if len(kept_transforms) == len(transforms):
             return True
-        self.changes += len(transforms) - len(kept)
-        message.set_transforms(kept)
-        return bool(kept)
+        self.changes += len(transforms) - len(kept_transforms)
+        message.set_transforms(kept_transforms)
+        return bool(kept_transforms)
 
     def insertions(self) -> Iterator[Insertion]:
         """Yield the message with the transforms that the recording does not have."""
         if self._missing_transforms:
             self.changes += len(self._missing_transforms)
             added = [
-                RecordedTransform(0, one.parent.encode(), one.child.encode(), struct.pack("<7d", *one.pose))
-                for one in self._missing_transforms
+                RecordedTransform(
+                    0, transform.parent.encode(), transform.child.encode(), struct.pack("<7d", *transform.pose)
+                )
+                for transform in self._missing_transforms
             ]
             yield Insertion(self._topic, join_transforms(added, LITTLE_ENDIAN_HEADER))

@@ -71,10 +71,10 @@ class Shift(Rule):
             return None
 
         def step(message: EditedMessage) -> bool:
-            new, changed = stamps.change(message.data, self._new_stamp)
-            if changed:
+            new, change_count = stamps.change(message.data, self._new_stamp)
+            if change_count:
                 message.data = new
-                self.changes += changed
+                self.changes += change_count
             return True
 
         return step
@@ -82,31 +82,31 @@ class Shift(Rule):
     def _shift_child(self, message: EditedMessage) -> bool:
         if self._child not in message.data:
             return True
-        transforms, changed = message.transforms(), 0
-        for one in transforms:
-            if one.child.removeprefix(b"/") != self._child or not one.stamp:
+        transforms, change_count = message.transforms(), 0
+        for transform in transforms:
+            if transform.child.removeprefix(b"/") != self._child or not transform.stamp:
                 continue
-            if self._is_edge and one.parent.removeprefix(b"/") != self._parent:
+            if self._is_edge and transform.parent.removeprefix(b"/") != self._parent:
                 continue
-            new = self._new_stamp(one.stamp)
-            changed += new != one.stamp
-            one.stamp = new
-        if changed:
+            new = self._new_stamp(transform.stamp)
+            change_count += new != transform.stamp
+            transform.stamp = new
+        if change_count:
             message.set_transforms(transforms)
-            self.changes += changed
+            self.changes += change_count
         return True
 
     def _shift_messages_of_frame(self, topic: EditedTopic) -> Step | None:
         stamps, frames = topic.stamps, topic.frames
         if stamps is None or frames is None:
             return None
-        wanted = self._child.decode()
+        child_frame = self._child.decode()
 
         def step(message: EditedMessage) -> bool:
             data = message.data
-            if self._child in data and frames.of_header(data).removeprefix("/") == wanted:
-                message.data, changed = stamps.change(data, self._new_stamp)
-                self.changes += changed
+            if self._child in data and frames.of_header(data).removeprefix("/") == child_frame:
+                message.data, change_count = stamps.change(data, self._new_stamp)
+                self.changes += change_count
             return True
 
         return step

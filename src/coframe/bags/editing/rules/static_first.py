@@ -32,9 +32,9 @@ class StaticFirst(Rule):
 
     def prepare(self, survey: Survey) -> None:
         """Find the static transforms that come late."""
-        for one in survey.static_transforms():
-            if one.received > survey.span[0]:
-                self._late_statics.setdefault((one.topic, one.header), []).append(one)
+        for transform in survey.static_transforms():
+            if transform.received > survey.span[0]:
+                self._late_statics.setdefault((transform.topic, transform.header), []).append(transform)
 
     def step(self, topic: EditedTopic) -> Step | None:
         """Return None, because the recorded messages are not changed."""
@@ -45,6 +45,9 @@ class StaticFirst(Rule):
         """Yield the messages to add."""
         for (topic, header), found in self._late_statics.items():
             self.changes += len(found)
-            for one in found:
-                one.transform.parent, one.transform.child = one.parent.encode(), one.child.encode()
-            yield Insertion(topic, join_transforms([one.transform for one in found], header))
+            for transform in found:
+                transform.transform.parent, transform.transform.child = (
+                    transform.parent.encode(),
+                    transform.child.encode(),
+                )
+            yield Insertion(topic, join_transforms([transform.transform for transform in found], header))
