@@ -112,12 +112,11 @@ def _find_static_offsets(observation: Observation, usual_clock: str) -> Iterator
             code=CODE,
             severity=Severity.NOTE,
             text=f"the stamps of {len(edges)} of {len(observation.static)} static transforms use a different clock "
-            f"from /tf ({seconds(edges[0].first_stamp)}, {duration(abs(edges[0].first_stamp - high))} off), {zero} have the "
-            "stamp 0; tf2 ignores the stamps of static transforms",
+            f"from /tf ({seconds(edges[0].first_stamp)}, {duration(abs(edges[0].first_stamp - high))} off), "
+            f"{zero} have the stamp 0; tf2 ignores the stamps of static transforms",
             fix="Start their publishers with --ros-args -p use_sim_time:=true, like the other nodes.",
             harm="A static transform is valid for all times, regardless of its stamp. But its publisher uses another "
-            "clock "
-            "than the other nodes, and its other messages will not match theirs.",
+            "clock than the other nodes, and its other messages will not match theirs.",
             edge=edges[0].key,
             edges=tuple(edge.key for edge in edges),
             frames=frozenset(edge.child for edge in edges),
