@@ -54,4 +54,4 @@ class CoframeError(Exception):
 
 
 class CoframeWarning(UserWarning):
-    """A result is less accurate than it looks. Python's ``warnings`` show, silence or raise this."""
+    """A result is less accurate than it looks. Python's ``warnings`` module can show, suppress or raise it."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Texts of the errors of the operating system, without their numbers."""
+"""Messages of operating system errors, without their numbers."""
 
 from __future__ import annotations
 

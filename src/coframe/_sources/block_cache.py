@@ -128,7 +128,7 @@ class BlockCache:
         return data
 
     def _prefetch_end(self, begin: int, stop: int) -> int:
-        """Return where a request ends: later in a row of reads, and at the end of the file."""
+        """Return where a request ends: later in a sequence of reads, and at the end of the file."""
         blocks = -(-self.ranges.size // BLOCK_SIZE)
         self._blocks_ahead = min(2 * self._blocks_ahead, _MAX_BLOCKS) if begin == self._last_end else 1
         if self.ranges.size - begin * BLOCK_SIZE <= _TAIL_SIZE:

@@ -27,7 +27,7 @@ _MAX_SHOWN: Final = 300
 
 
 def scheme_of(text: object) -> str:
-    """Return the scheme of a URL in small letters, such as ``s3``, or "" for all that is not a URL, such as a path."""
+    """Return the scheme of a URL in lower case, such as ``s3``, or "" if the text is not a URL, such as a path."""
     match = _SCHEME.match(text) if isinstance(text, str) else None
     return match[1].lower() if match else ""
 

@@ -59,7 +59,7 @@ def is_misspelling(name: str, other: str) -> bool:
 
 
 def _are_similar_words(a: str, b: str) -> bool:
-    """Return whether two words differ in few letters, or one is an abbreviation of the other."""
+    """Return whether two words differ in only a few letters, or one is an abbreviation of the other."""
     short, long = sorted((a, b), key=len)
     if len(short) < _MIN_ABBREVIATION:
         return False

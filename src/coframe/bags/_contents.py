@@ -215,14 +215,12 @@ class _ReadState:
 
     def _read_files(self, storages: list[Storage]) -> None:
         total = sum(storage.size for storage in storages)
-        bytes_read = 0
+        offset = 0
         for storage in storages:
-            for batch in self._batches(
-                storage, lambda bytes_, before=bytes_read: self._progress(before + bytes_, total)
-            ):  # type: ignore[misc]
+            for batch in self._batches(storage, lambda bytes_, before=offset: self._progress(before + bytes_, total)):  # type: ignore[misc]
                 self._add(storage, batch)
             self._add_channels(storage)
-            bytes_read += storage.size
+            offset += storage.size
 
     def _add_channels(self, storage: Storage) -> None:
         """Add the channels of a file without messages so far."""

@@ -249,7 +249,7 @@ class _Copy:
             converted = None if route is None else route.convert(data)
             shift = self._shifts[recording]
             if converted is not None and shift is not None and route is not None and route.stamps is not None:
-                new_stamp = partial(shift.of_stamp, received=receive_time - shift.offset)
+                new_stamp = partial(shift.of_stamp, receive_time=receive_time - shift.offset)
                 converted, _ = route.stamps.change(converted, new_stamp)
         except Exception:  # noqa: BLE001 - the libraries raise errors of many kinds for damaged bytes
             converted = None

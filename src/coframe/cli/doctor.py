@@ -207,7 +207,7 @@ def doctor(
         else:
             if bag is not None and fixed is not None:
                 _print(reports)
-                examine = partial(_examine, ignored=ignored, cache=cache)
+                examine = partial(_examine, ignored_codes=ignored, cache=cache)
                 fix_recording(bag, fixed, reports, examine, yes=yes)
             _print_and_exit(reports, as_json, sarif, bag, fail_on)
 

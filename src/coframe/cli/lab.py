@@ -326,7 +326,7 @@ def autograder(platform: str, output: Path, wheel: Path, variant: int | None, la
             )
 
 
-@lab.command("break", short_help="Start a system with a fault to diagnose.")
+@lab.command("break", short_help="Start a deliberately broken system to diagnose.")
 @argument(
     "number",
     metavar="[N]",

@@ -83,7 +83,7 @@ def read_argument(text: str, choice: TransformChoice, max_gap: int = MAX_GAP) ->
 
 
 def read_frames(recording: Recording, frames: tuple[str, str], max_gap: int = MAX_GAP) -> Transform:
-    """Return the poses of a frame, without those that would be invented between transforms that are far apart.
+    """Return the poses of a frame, without interpolating between transforms that are far apart.
 
     Raises:
         CoframeError: The frames are not connected.

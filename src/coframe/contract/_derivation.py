@@ -41,7 +41,7 @@ _UNRELATED_TOPICS = ("/rosout", "/parameter_events", "/events/write_split", "/bo
 
 
 def derive_contract(measurement: Measurement, *, fail_on: Severity | None = Severity.WARNING) -> Contract:
-    """Return a contract that the measured recording keeps.
+    """Return a contract that the measured recording satisfies.
 
     Rates have a margin of 20 %, gaps of 50 %. What was published irregularly, such as goals, has no rate. The findings
     of the doctor in the recording are accepted, and their texts are the reasons.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Verdict: whether one recording, or the running system, keeps a contract."""
+"""Verdict: whether one recording, or the running system, satisfies a contract."""
 
 from __future__ import annotations
 

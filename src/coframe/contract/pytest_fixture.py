@@ -19,7 +19,7 @@ __all__ = ["check_contract"]
 
 @pytest.fixture(scope="session")
 def check_contract() -> Callable[..., None]:
-    """Return a function that fails the test if one of some recordings breaks the contract in a file."""
+    """Return a function that fails the test if a recording violates the contract in a file."""
 
     def check(contract: str | os.PathLike[str], *recordings: str | os.PathLike[str]) -> None:
         required = read_contract(contract)

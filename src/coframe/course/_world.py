@@ -292,7 +292,7 @@ class World:
         return answered
 
     def is_blocked(self) -> bool:
-        """Return whether the node of the running program has stopped to respond, for example because it never spins."""
+        """Return whether the node of the running program has stopped responding, for example because it never spins."""
         return bool(self._probes) and not self._is_responding()
 
     def _is_responding(self) -> bool:

@@ -176,7 +176,7 @@ def _student(row: Mapping[str, str], columns: Mapping[str, str]) -> Student:
 
 
 def _other_name(email: str, login: str, number: str, participant: str) -> str:
-    """Return what identifies a student whose name is not enough."""
+    """Return what identifies a student if the name is ambiguous."""
     return email.partition("@")[0] or login or number or participant
 
 

@@ -81,7 +81,7 @@ def align_scale(reference: Transform, estimate: Transform) -> Alignment:
 
 
 def align_origin(reference: Transform, estimate: Transform, *, scale: float = 1.0) -> Alignment:
-    """Return the alignment that makes the first poses equal.
+    """Return the alignment that makes the first poses coincide.
 
     Args:
         reference: A batch of shape (N,), as returned by :func:`associate`.

@@ -86,7 +86,7 @@ def findings(
 
 
 def _resultant_length(positions: NDArray[np.float64], xyzw: NDArray[np.float64]) -> float | None:
-    """Return how equal the directions of motion are, seen from the moving frame: 0 to 1, or None if it hardly moves."""
+    """Return how similar the directions of motion are in the moving frame: 0 to 1, or None if it hardly moves."""
     if len(positions) <= _MIN_MOVES:
         return None
     steps = np.diff(positions, axis=0)

@@ -198,8 +198,8 @@ def compare_trajectories(
     """Compare an estimated trajectory with a reference: absolute (APE) and relative (RPE) pose errors.
 
     The absolute error is the pose of the reference relative to the estimate. The relative error compares the motions of
-    both between two poses that are ``delta`` apart; each pair begins where the previous one ends. The errors are those
-    of the tool evo.
+    both between two poses that are ``delta`` apart; each pair begins where the previous one ends. The errors match
+    those of evo.
 
     Args:
         reference: A batch of shape (N,), such as from :func:`read_trajectory` or :meth:`coframe.Buffer.trajectory`.

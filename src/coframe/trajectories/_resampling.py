@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Poses of a trajectory at other times, without those that would be invented in gaps."""
+"""Poses of a trajectory at other times, without interpolating across gaps."""
 
 from __future__ import annotations
 

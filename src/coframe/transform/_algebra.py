@@ -159,7 +159,7 @@ class TransformAlgebra(TransformValues):
         )
 
     def adjoint(self) -> Array:
-        """Return the matrix that turns twists along the axes of ``source`` into twists along those of ``target``.
+        """Return the matrix that converts twists along the axes of ``source`` into twists along those of ``target``.
 
         Returns:
             Shape (6, 6), for a batch (..., 6, 6), in the order linear, angular: ``t @ exp(xi)`` is the same as

@@ -149,8 +149,8 @@ class TransformConstructors(TransformAlgebra):
 
         Args:
             translation: Position in meters, shape (..., 3).
-            seq: One to three axes: capital letters rotate about the axes of the moved frame ("ZYX" is yaw, pitch,
-                roll), small letters about fixed axes ("xyz" is roll, pitch, yaw).
+            seq: One to three axes: upper-case letters rotate about the axes of the moved frame ("ZYX" is yaw, pitch,
+                roll), lower-case letters about fixed axes ("xyz" is roll, pitch, yaw).
             angles: An angle for each axis, shape (..., n); for one axis also a number.
             degrees: Whether the angles are in degrees instead of radians.
             target: The target frame.

@@ -3,7 +3,7 @@
 
 A covariance is a (6, 6) matrix over x, y, z in meters and rotations about x, y, z in radians along the axes of the
 target, as in ROS's PoseWithCovariance. It describes the error xi of the body: the true pose is T exp(xi), and the
-covariance is that of D xi, where D turns both parts of xi from the axes of the source to those of the target.
+covariance is that of D xi, where D rotates both parts of xi from the axes of the source to those of the target.
 
 - To first order this is ROS's position error along, and rotation error about, fixed axes; ROS defines no more.
 - "body" is the covariance of xi itself; "gtsam" has the rotation first.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Poses in ROS messages, found by the names of their fields, whichever program made the classes.
+"""Poses in ROS messages, found by the names of their fields, regardless of which program created the classes.
 
 A pose has the fields position and orientation, or translation and rotation. The message is searched level by level; the
 first level with a pose counts. The nearest header around it has the frame and the stamp, `child_frame_id` next to that

@@ -38,7 +38,7 @@ class Transform(TransformConstructors):
     read-only, including those of batches. ``np.asarray(transform)`` is a new array of shape (..., 7): x, y, z, qx, qy,
     qz, qw, as ``transform.values``.
 
-    ``Transform(message)`` reads any ROS message that contains a pose, whichever program made its class: Pose,
+    ``Transform(message)`` reads any ROS message that contains a pose, regardless of which program made its class: Pose,
     TransformStamped, Odometry, Path, Marker, ... Its ``frame_id`` becomes ``target``, its ``child_frame_id``
     ``source``; a list of poses becomes a batch, and a covariance that is not all zero that of the transform.
 

@@ -163,8 +163,8 @@ class TransformValues(_core.Transform):
         """Return Euler angles in any order, as ``scipy.spatial.transform.Rotation.as_euler`` does.
 
         Args:
-            seq: Three axes: capital letters rotate about the axes of the moved frame ("ZYX" is yaw, pitch, roll),
-                small letters about fixed axes ("xyz" is roll, pitch, yaw).
+            seq: Three axes: upper-case letters rotate about the axes of the moved frame ("ZYX" is yaw, pitch, roll),
+                lower-case letters about fixed axes ("xyz" is roll, pitch, yaw).
             degrees: Whether the angles are in degrees instead of radians.
 
         Returns:

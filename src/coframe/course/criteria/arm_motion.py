@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Compare the published motion of a joint with the specified one, and find the mistake in a wrong one by trying.
+"""Compare the published motion of a joint with the specified motion, and find the mistake by trial.
 
 A trial is a pair: a mistake in the formula of the quaternion, and a mistake in the time or in the formula of the angle.
 It names the mistake only if all samples agree with it.

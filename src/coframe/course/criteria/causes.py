@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Causes of lost points, found by trying: a common mistake is named only if it explains what was observed.
+"""Causes of lost points, found by trial: a common mistake is named only if it explains what was observed.
 
 All functions return "" if no common mistake fits. The report then prints no cause.
 """

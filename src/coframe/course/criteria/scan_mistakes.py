@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Find the mistake in a wrong cloud by trying: each common mistake is applied to the scan, and compared."""
+"""Find the mistake in a wrong cloud: apply each common mistake to the scan, and compare the results."""
 
 from __future__ import annotations
 

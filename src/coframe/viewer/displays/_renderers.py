@@ -50,8 +50,8 @@ class Renderer(Protocol):
         """Return whether the last drawing is out of date, although the message is the same.
 
         Args:
-            time: As for `draw`.
-            at: As for `draw`.
+            time: The time of the message, as in `draw`.
+            at: The displayed time, as in `draw`.
         """
 
 

@@ -39,7 +39,7 @@ _ANY_PUBLISHER = QoS(depth=MAX_QUEUED, reliable=False)
 
 
 class _Series:
-    """The stamps of one frame or of a clock: the newest one, and the old ones since then."""
+    """The stamps of a frame or of /clock: the newest stamp, and all older stamps received after it."""
 
     __slots__ = ("count", "interval", "newest", "newest_at", "since")
 

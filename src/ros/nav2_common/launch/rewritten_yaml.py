@@ -33,7 +33,7 @@ class RewrittenYaml(Substitution):
         root_key: A key under which the content is put, such as a namespace.
         key_rewrites: New names of keys.
         convert_types: Whether new values that are numbers are written as numbers, not as strings.
-        value_rewrites: New values by the old ones, which must be strings.
+        value_rewrites: A mapping from old values, which must be strings, to new values.
     """
 
     def __init__(
