@@ -306,7 +306,7 @@ POINT_CLOUD2 = DisplayRow(
     large_in_replay=True,
     guide=(
         "PointCloud2 with up to 4 million points, colored by any channel, an axis, the distance, rgb or r, g and b; "
-        "without a graphics card, the display thins clouds to 40 000 points and says so"
+        "without a graphics card, the display thins clouds to 40 000 points and reports it"
     ),
 )
 TEMPERATURE = _value_display(
