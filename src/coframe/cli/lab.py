@@ -107,14 +107,14 @@ def new(folder: Path, variant: int | None, roster: Path | None, as_zip: bool, la
             raise _MisuseError("--variant and --roster exclude each other", hint="The variants are in the roster.")
         if roster is not None:
             students = read_roster(roster)
-            places = create_class(folder, students, as_zip=as_zip, language=chosen_language)
+            places = create_class(folder, students, as_zip=as_zip, language=chosen)
             for student, place in zip(students.students, places, strict=True):
                 print(f"created {printable(str(place))} for {printable(student.name)}, variant {student.variant}")
             return
-        for path in create_folder(folder, variant, chosen_language):
-            print(chosen_language.text(f"created {printable(str(path))}"))
+        for path in create_folder(folder, variant, chosen):
+            print(chosen.text(f"created {printable(str(path))}"))
         command = f"coframe lab run {shlex.quote(printable(str(folder)))}"
-        print(chosen_language.text(f"Next: read {printable(str(folder / 'README.md'))}, then run: {command}"))
+        print(chosen.text(f"Next: read {printable(str(folder / 'README.md'))}, then run: {command}"))
 
 
 @lab.command(short_help="Run the nodes of a folder with a simulated robot.")
@@ -136,8 +136,8 @@ def run(
 ) -> None:
     """Run the nodes of a folder with a simulated lidar, and show them in the viewer.
 
-    The arm moves as simulated in step 2. With --joints, it has to follow the joint states of the robot: if it jumps
-    between two poses, its simulation has not stopped. Each output line has the name of its node. The
+    The arm moves as step 2 simulates it. With --joints, it has to follow the joint states of the robot: if it jumps
+    between two poses, its simulation continues next to them. Each output line has the name of its node. The
     viewer's findings show what is missing.
 
     Example: coframe lab run my_lab
@@ -226,7 +226,7 @@ def check(
     """Grade the nodes in a folder by what they publish: up to 100 points, plus 10 for each of four extensions.
 
     The nodes run with a simulated clock and limits on time, memory and output. The exit code is 0 regardless of the
-    grade. With --all, each grade is written as soon as it is known, and Ctrl-C keeps all finished grades.
+    grade. With --all, each grade is written as soon as it is known, and Ctrl-C keeps what is finished.
 
     Example: coframe lab check my_lab
     """
@@ -243,7 +243,7 @@ def check(
         else:
             _check_options_of_one(for_class, no_roster_variants=no_roster_variants)
         if problem := isolation_problem():
-            warn(chosen_language.text(problem))
+            warn(spoken.text(problem))
         if everyone:
             grade_class(
                 ClassOptions(
@@ -254,16 +254,16 @@ def check(
             return
         check_outputs((record, gradescope, classroom), student)
         try:
-            with item_progress("checking", len(criteria)) as progress:
-                report = check_folder(student, variant=variant, only=criteria, record=record, progress=progress)
+            with item_progress("checking", len(chosen)) as progress:
+                report = check_folder(student, variant=variant, only=chosen, record=record, progress=progress)
         except CourseError as error:
-            _write_reports(formats.ungraded_report(str(student), str(error)), formatted, chosen_language)
+            _write_reports(formats.ungraded_report(str(student), str(error)), formatted, spoken)
             raise
-        _write_reports(report, formatted, chosen_language)
+        _write_reports(report, formatted, spoken)
         if as_json:
             print(json.dumps(report, indent=2))
             return
-        for line in formats.text(report, chosen_language):
+        for line in formats.text(report, spoken):
             print(printable(line))
 
 
@@ -316,8 +316,8 @@ def autograder(platform: str, output: Path, wheel: Path, variant: int | None, la
 
     Example: coframe lab autograder gradescope -o autograder --wheel dist/coframe-1.0-cp312-cp312-linux_x86_64.whl
     """
-    with run_to_completion(), _in_language(language) as chosen_language:
-        for path in write_autograder(platform, output, wheel, variant, chosen_language):
+    with run_to_completion(), _in_language(language) as chosen:
+        for path in write_autograder(platform, output, wheel, variant, chosen):
             print(f"created {printable(str(path))}")
         if needs_newest_glibc(wheel):
             warn(
@@ -326,7 +326,7 @@ def autograder(platform: str, output: Path, wheel: Path, variant: int | None, la
             )
 
 
-@lab.command("break", short_help="Start a deliberately broken system to diagnose.")
+@lab.command("break", short_help="Start a system with a fault to diagnose.")
 @argument(
     "number",
     metavar="[N]",
@@ -334,9 +334,7 @@ def autograder(platform: str, output: Path, wheel: Path, variant: int | None, la
     required=False,
     help=f"Number of a fault, 1 to {len(FAULTS)}; omit it with --random.",
 )
-@click.option(
-    "--random", "seed", metavar="SEED", help="Choose a random fault, with this text as the seed, for an exam."
-)
+@click.option("--random", "seed", metavar="SEED", help="Draw the fault that belongs to this text, for an examination.")
 @click.option("--answer", metavar="FAULT", help="Check this answer instead of starting the system.")
 @language_option
 @click.option("--browser/--no-browser", help="Open the viewer in the browser; its findings are a hint.")
@@ -366,20 +364,12 @@ def break_(
         chosen = draw(seed or "") if number is None else number
         words = f"--random {shlex.quote(seed or '')}" if number is None else f"{number}"
         if answer is not None:
-            _print_verdict(fault_number, answer, chosen_language)
+            _print_verdict(chosen, answer, spoken)
             return
-        print(
-            chosen_language.text(
-                f"System {words} is running in this ROS domain. What is wrong with it? Stop it with Ctrl-C."
-            )
-        )
-        print(
-            chosen_language.text(
-                f'Then answer with: coframe lab break {words} --answer "FAULT", where FAULT is one of:'
-            )
-        )
-        print(f"  {_fault_names(chosen_language)}", flush=True)
-        _run(FAULTS[fault_number - 1].programs, seconds, browser=browser, port=port)
+        print(spoken.text(f"System {words} is running in this ROS domain. What is wrong with it? Stop it with Ctrl-C."))
+        print(spoken.text(f'Then answer with: coframe lab break {words} --answer "FAULT", where FAULT is one of:'))
+        print(f"  {_fault_names(spoken)}", flush=True)
+        _run(FAULTS[chosen - 1].programs, seconds, browser=browser, port=port)
 
 
 @lab.command(short_help="Read the handbook of the course.")
@@ -405,9 +395,9 @@ def handbook(
 
     Example: coframe lab handbook -o handbook
     """
-    with run_to_completion(), _in_language(language, recorded_language(_folder(None))) as chosen_language:
+    with run_to_completion(), _in_language(language, recorded_language(_folder(None))) as spoken:
         if output is not None:
-            _write_handbook(output, chapter, chosen_language, slides=slides, browser=browser)
+            _write_handbook(output, chapter, spoken, slides=slides, browser=browser)
             return
         if slides:
             raise _MisuseError("--slides writes a file", hint="Add -o FOLDER.")
@@ -419,13 +409,13 @@ def handbook(
         file = contents() if chapter is None else found[chapter].file
         console = report_console()
         console.print(
-            Markdown(terminal_text(file, chosen_language), hyperlinks=False), width=min(console.width, _HANDBOOK_WIDTH)
+            Markdown(terminal_text(file, spoken), hyperlinks=False), width=min(console.width, _HANDBOOK_WIDTH)
         )
         if chapter is None:
             hint = (
                 "Read a chapter: coframe lab handbook 1. With images, in the browser: coframe lab handbook -o handbook"
             )
-            print(chosen_language.text(hint))
+            print(spoken.text(hint))
 
 
 def _write_handbook(folder: Path, chapter: int | None, language: Language, *, slides: bool, browser: bool) -> None:
@@ -441,9 +431,9 @@ class _MisuseError(CourseError):
 
 
 @contextlib.contextmanager
-def _in_language(code: str | None, recorded_code: str = "") -> Iterator[Language]:
+def _in_language(code: str | None, recorded: str = "") -> Iterator[Language]:
     """Choose the language of a command, in which its errors are raised, too."""
-    language = choose_language(code, recorded_code)
+    language = choose_language(code, recorded)
     try:
         yield language
     except _MisuseError as error:

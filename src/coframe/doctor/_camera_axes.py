@@ -163,16 +163,15 @@ def _with_round_angles(edge: Edge) -> WrongAxes | None:
     Near the axes of an optical frame all four numbers are alike, so that another order is hardly another rotation: only
     angles that were typed show it.
     """
-    rotation = edge.rotations[-1]
-    if _has_round_angles(rotation):
+    turn = edge.rotations[-1]
+    if _has_round_angles(turn):
         return None
     for shift, reading in ((-1, "is read as w, x, y, z"), (1, "x, y, z, w was passed as w, x, y, z")):
-        other = np.roll(rotation, shift)
-        if _has_round_angles(other) and _angle(rotation, other) > _MIN_REORDERED_ANGLE:
+        other = np.roll(turn, shift)
+        if _has_round_angles(other) and _angle(turn, other) > _MIN_REORDERED_ANGLE:
             roll, pitch, yaw = (f"{value + 0.0:.4g}" for value in _body_angles(other))
             text = (
-                f"the rotation of {edge.child!r} is {np.degrees(_angle(rotation, other)):.3g} degrees from one "
-                "with round "
+                f"the rotation of {edge.child!r} is {np.degrees(_angle(turn, other)):.3g} degrees from one with round "
                 f"angles: roll {roll}, pitch {pitch}, yaw {yaw} degrees of the body if its quaternion {reading}"
             )
             fix = "A quaternion of ROS is x, y, z, w: set rotation.w from the scalar."
@@ -180,15 +179,15 @@ def _with_round_angles(edge: Edge) -> WrongAxes | None:
     return None
 
 
-def _body_angles(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
+def _body_angles(turn: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return roll, pitch and yaw in degrees of the body of a camera whose optical frame has a rotation."""
-    angles = quaternion.to_rpy(quaternion.multiply(rotation, quaternion.inverse(OPTICAL_ROTATION)))
+    angles = quaternion.to_rpy(quaternion.multiply(turn, quaternion.inverse(OPTICAL_ROTATION)))
     return np.asarray(np.round(np.degrees(angles), 6))
 
 
-def _has_round_angles(rotation: NDArray[np.float64]) -> bool:
+def _has_round_angles(turn: NDArray[np.float64]) -> bool:
     """Return whether the angles of a camera's body were typed: steps of 0.001 radians, or of 0.1 degrees."""
-    angles = quaternion.to_rpy(quaternion.multiply(rotation, quaternion.inverse(OPTICAL_ROTATION)))
+    angles = quaternion.to_rpy(quaternion.multiply(turn, quaternion.inverse(OPTICAL_ROTATION)))
     return any(bool((np.abs(angles / step - np.round(angles / step)) * step < _MAX_TYPED_ERROR).all())
                for step in _TYPED_STEPS)  # fmt: skip
 
@@ -205,15 +204,15 @@ def _is_body_of(parent: str, child: str) -> bool:
 
 def _check_rep103_rotation(observation: Observation, edge: Edge) -> WrongAxes | None:
     """Return what is wrong with the optical frame of a camera's body, whose rotation REP-103 defines."""
-    rotation = edge.rotations[-1]
-    if _angle(rotation, OPTICAL_ROTATION) < 2.0 * _MAX_UNROTATED_ANGLE:
+    turn = edge.rotations[-1]
+    if _angle(turn, OPTICAL_ROTATION) < 2.0 * _MAX_UNROTATED_ANGLE:
         return None
     if _angle(turn, _IDENTITY) < _MAX_UNROTATED_ANGLE:
         return _unrotated_frame(observation, edge)
     zero = np.zeros(3)
-    published, expected = (np.concatenate([zero, each])[None] for each in (rotation, OPTICAL_ROTATION))
+    published, expected = (np.concatenate([zero, each])[None] for each in (turn, OPTICAL_ROTATION))
     found = explain(published, expected, radians=_MAX_ANGLE_ERROR)
-    matrix = quaternion.to_matrix(rotation)
+    matrix = quaternion.to_matrix(turn)
     is_aligned = bool((np.abs(np.abs(matrix) - np.round(np.abs(matrix))) < _MAX_ALIGNMENT_ERROR).all())
     if found is None and not is_aligned:
         return None
@@ -227,8 +226,8 @@ def _unrotated_frame(observation: Observation, edge: Edge) -> WrongAxes:
         f"{_optical_name(observation, edge.child)}, but is not rotated relative to {edge.parent!r}: its z axis points "
         "up instead of forward"
     )
-    rotation = quaternion.multiply(edge.rotations[-1], OPTICAL_ROTATION)
-    return WrongAxes(edge, text, "", np.concatenate([edge.values[-1, :3], rotation]))
+    turn = quaternion.multiply(edge.rotations[-1], OPTICAL_ROTATION)
+    return WrongAxes(edge, text, "", np.concatenate([edge.values[-1, :3], turn]))
 
 
 def _find_corrected_edge(
@@ -253,18 +252,18 @@ def _find_corrected_edge(
     return None
 
 
-def _chain_rotation(chain: Sequence[Edge], replacement: tuple[Edge, NDArray[np.float64]] | None) -> NDArray[np.float64]:
+def _chain_rotation(chain: Sequence[Edge], changed: tuple[Edge, NDArray[np.float64]] | None) -> NDArray[np.float64]:
     """Return the rotation from the upper end of a chain to its lower end, with another rotation of one edge."""
-    rotation = _IDENTITY
+    turn = _IDENTITY
     for edge in reversed(chain):
-        own = replacement[1] if replacement is not None and edge is replacement[0] else edge.rotations[-1]
-        rotation = quaternion.multiply(rotation, own)
-    return rotation
+        own = changed[1] if changed is not None and edge is changed[0] else edge.rotations[-1]
+        turn = quaternion.multiply(turn, own)
+    return turn
 
 
-def _axes(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
+def _axes(turn: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the x, y and z axis of a frame, one row each."""
-    return np.asarray(quaternion.to_matrix(rotation).T)
+    return np.asarray(quaternion.to_matrix(turn).T)
 
 
 def _angle(first: NDArray[np.float64], second: NDArray[np.float64]) -> float:

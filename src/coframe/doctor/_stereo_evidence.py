@@ -119,10 +119,10 @@ def _contradiction(pair: _Pair) -> StereoContradiction | None:
     size, length = float(np.linalg.norm(expected)), float(np.linalg.norm(published))
     if length < _MIN_BASELINE:
         return None  # The driver publishes both cameras in one place, and the baseline in P only.
-    rotation = _angle_to(relative, first, second)
+    turn = _angle_to(relative, first, second)
     limit = max(_MAX_DISTANCE, _MAX_SHARE * size)
     fits = float(np.linalg.norm(published - expected)) < max(limit, 2.0 * np.sin(_MIN_WRONG_ANGLE) * size)
-    if fits and rotation < _MIN_WRONG_ANGLE:
+    if fits and turn < _MIN_WRONG_ANGLE:
         return None
     before = float(np.linalg.norm(published - expected)), turn
     found: StereoContradiction | None
@@ -139,8 +139,8 @@ def _contradiction(pair: _Pair) -> StereoContradiction | None:
 
 def _angle_to(relative: Array, first: CameraModel, second: CameraModel) -> float:
     """Return the angle between the rotation of a relative pose and that which R of both cameras states."""
-    rotation_error = first.r @ quaternion.to_matrix(relative[3:]) @ second.r.T
-    return float(np.arccos(np.clip((np.trace(rotation_error) - 1.0) / 2.0, -1.0, 1.0)))
+    off = first.r @ quaternion.to_matrix(relative[3:]) @ second.r.T
+    return float(np.arccos(np.clip((np.trace(off) - 1.0) / 2.0, -1.0, 1.0)))
 
 
 def _wrong_mount(
@@ -166,10 +166,9 @@ def _wrong_mount(
     return None
 
 
-def _wrong_rotation(pair: _Pair, rotation: float) -> StereoContradiction:
+def _wrong_rotation(pair: _Pair, turn: float) -> StereoContradiction:
     text = (
-        f"the rotation between {pair.first.frame!r} and {pair.second.frame!r} differs by {degrees(rotation):.3g} "
-        "degrees "
+        f"the rotation between {pair.first.frame!r} and {pair.second.frame!r} differs by {degrees(turn):.3g} degrees "
         "from that of the calibration (R of both cameras)"
     )
     return StereoContradiction(pair.second.topic, text, "Calibrate the pair again, and publish both mounts from it.")

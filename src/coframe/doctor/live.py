@@ -118,18 +118,18 @@ class _Topic:
         if len(self.headers) > MAX_MESSAGES:
             self.forgotten_until = self.headers.popleft().arrived
 
-    def add_decoded(self, size: int, arrival_time: int, message: Any) -> None:
+    def add_decoded(self, size: int, arrived: int, message: Any) -> None:
         """Store a message, and drop the oldest ones beyond the limits on number and bytes."""
-        self.decoded.append((arrival_time, message))
+        self.decoded.append((arrived, message))
         self._sizes.append(size)
         self._bytes += size
         while len(self.decoded) > MAX_MESSAGES or (self._bytes > MAX_DECODED_BYTES and len(self.decoded) > 1):
             self.forgotten_until = self.decoded[0][0]
             self._drop_oldest()
 
-    def forget(self, cutoff: int) -> None:
+    def forget(self, before: int) -> None:
         """Remove headers and decoded messages that arrived before a time, except latched descriptions."""
-        while self.headers and self.headers[0].arrived < cutoff:
+        while self.headers and self.headers[0].arrived < before:
             self.headers.popleft()
         while self.evidence and self.evidence[0][0] < before:
             self.evidence.popleft()
@@ -140,9 +140,9 @@ class _Topic:
         self.decoded.popleft()
         self._bytes -= self._sizes.popleft()
 
-    def is_over(self, cutoff: int) -> bool:
+    def is_over(self, before: int) -> bool:
         """Return whether nothing has arrived since a time."""
-        return not self.headers and not (self.decoded and self.decoded[-1][0] >= cutoff)
+        return not self.headers and not (self.decoded and self.decoded[-1][0] >= before)
 
 
 class LiveObserver:
@@ -282,9 +282,9 @@ class LiveObserver:
             clock=self._clock(start),
             travel=self._delays_by_node(),
             log=tuple(
-                ObservedLogLine(_node_of_logger(message.name), message.msg, arrival_time)
-                for arrival_time, message in self._decoded_messages("rcl_interfaces/msg/Log")
-                if arrival_time >= start
+                ObservedLogLine(_node_of_logger(message.name), message.msg, arrived)
+                for arrived, message in self._decoded_messages("rcl_interfaces/msg/Log")
+                if arrived >= start
             ),
             cache=self.cache,
             link_name=self._rename,
@@ -309,13 +309,13 @@ class LiveObserver:
         number = list(processes).index(writer.process)
         return writer.node if number == 0 else f"{writer.node} (copy {number + 1})"
 
-    def _forget(self, cutoff: int, present: set[int]) -> None:
+    def _forget(self, before: int, present: set[int]) -> None:
         """Discard messages that arrived before a time, and departed writers without later messages."""
-        self._collector.forget(cutoff, MAX_TRANSFORMS)
+        self._collector.forget(before, MAX_TRANSFORMS)
         for topic in self._topics.values():
-            topic.forget(cutoff)
+            topic.forget(before)
         for delays in self._delays.values():
-            while delays and delays[0].arrived < cutoff:
+            while delays and delays[0].arrived < before:
                 delays.popleft()
         self._static_writers &= present
         if (self._writers.keys() | self._delays.keys()) <= present:
@@ -331,12 +331,12 @@ class LiveObserver:
             self._next_memory_return = time.monotonic() + _MEMORY_RETURN_PERIOD
             return_freed_blocks()
 
-    def _add_node_names(self, transforms: Transforms) -> Transforms:
+    def _add_node_names(self, received: Transforms) -> Transforms:
         """Replace the writer handles of the collector with the names of nodes."""
-        names = [self._node_of(int(handle)) for handle in transforms.publishers]
+        names = [self._node_of(int(handle)) for handle in received.publishers]
         number = {name: i for i, name in enumerate(dict.fromkeys(names))}
         numbers = np.array([number[name] for name in names], dtype=np.int64)
-        return replace(transforms, publisher=numbers[transforms.publisher], publishers=tuple(number))
+        return replace(received, publisher=numbers[received.publisher], publishers=tuple(number))
 
     def _delays_by_node(self) -> dict[str, NDArray[np.int64]]:
         by_name: dict[str, list[NDArray[np.int64]]] = {}
@@ -397,13 +397,13 @@ class LiveObserver:
         topic.messages += len(messages.ends)
         if messages.dropped:
             topic.forgotten_until = time.time_ns()
-        message_bytes = Slices.contiguous(messages.data, messages.ends).each()
-        rows = zip(map(bytes, message_bytes), messages.arrived.tolist(), messages.writers.tolist(), strict=True)
+        whole = Slices.contiguous(messages.data, messages.ends).each()
+        rows = zip(map(bytes, whole), messages.arrived.tolist(), messages.writers.tolist(), strict=True)
         if topic.type in _DECODED_TYPES or topic.name.endswith(_DESCRIPTION):
-            for size, arrival_time, message in _decode(topic.type, rows):
-                topic.add_decoded(size, arrival_time, message)
+            for size, arrived, message in _decode(topic.type, rows):
+                topic.add_decoded(size, arrived, message)
             return
-        for data, arrival_time, writer in rows if begins_with_header(topic.type) else ():
+        for data, arrived, writer in rows if begins_with_header(topic.type) else ():
             header = peek_header(data)
             if header is not None:
                 stamp, frame = header
@@ -426,14 +426,14 @@ class LiveObserver:
 
     def _clock(self, start: int) -> ObservedClock | None:
         received = [
-            (arrival_times, message.clock.sec * SECOND + message.clock.nanosec)
-            for arrival_times, message in self._decoded_messages("rosgraph_msgs/msg/Clock")
-            if arrival_times >= start
+            (arrived, message.clock.sec * SECOND + message.clock.nanosec)
+            for arrived, message in self._decoded_messages("rosgraph_msgs/msg/Clock")
+            if arrived >= start
         ]
         if not received:
             return None
-        arrival_times, stamp = np.array(received, dtype=np.int64).T
-        return ObservedClock(arrival_times, stamp)
+        arrived, stamp = np.array(received, dtype=np.int64).T
+        return ObservedClock(arrived, stamp)
 
     def publishers(self, topic: str) -> tuple[ObservedEndpoint, ...]:
         """Return the publishers of a topic."""
@@ -475,9 +475,9 @@ class LiveObserver:
 def _decode(ros_type: str, messages: Iterable[tuple[bytes, int, int]]) -> Iterator[tuple[int, int, Any]]:
     """Yield the size, arrival time and content of each valid message."""
     message_type = find(ros_type)
-    for data, arrival_time, _ in messages:
+    for data, arrived, _ in messages:
         with contextlib.suppress(DecodeError):
-            yield len(data), arrival_time, deserialize(data, message_type)
+            yield len(data), arrived, deserialize(data, message_type)
 
 
 def _node_of_logger(logger: str) -> str:
@@ -511,6 +511,6 @@ def _sensor(topic: _Topic, frame: str, headers: list[_ReceivedHeader], node_of: 
 
 
 def _joints(topic: _Topic, start: int) -> ObservedJointStates:
-    messages = [message for arrival_time, message in topic.decoded if arrival_time >= start]
+    messages = [message for arrived, message in topic.decoded if arrived >= start]
     stamps = [message.header.stamp.sec * SECOND + message.header.stamp.nanosec for message in messages]
     return joint_states(topic.name, stamps, messages)
