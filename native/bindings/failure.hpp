@@ -26,8 +26,8 @@ struct FailureObject {
 
 std::string text_of(const FailureObject& failure);
 
-// Sets the registered exception of the failure's code, for the caller to return immediately: a C++ throw would cost more
-// than the lookup.
+// Sets the registered exception of the failure's code, for the caller to return immediately: a C++ throw would cost
+// more than the lookup.
 nb::object raise_failure(FailureObject&& failure);
 [[noreturn]] void raise_decode_error(const DecodeFailure& failure);
 // Sets the exceptions for UnfinishedChange and LostMemory.

@@ -16,7 +16,8 @@ namespace coframe {
 namespace {
 
 // Scopes last microseconds; one that reads from a suspended process lasts two seconds. A fork by a thread without the
-// interpreter lock could wait forever, so it continues after this time: almost all such children call exec() immediately.
+// interpreter lock could wait forever, so it continues after this time: almost all such children call exec()
+// immediately.
 constexpr auto kMaxWait = std::chrono::seconds(5);
 
 // The number of threads that are in a scope, plus kFork for each fork in progress.
