@@ -85,7 +85,7 @@ def measured_in(
             warn(text if text.startswith(bag) else f"{bag}: {text}")
             continue
         if not mounts:
-            warn(f"{bag}: no two sensors observe the same object at the same time; name their topics with --pair")
+            warn(f"{bag}: no two sensors see one thing at the same time; name their topics with --pair")
         for mount in mounts:
             if not mount.fits:
                 warn(
@@ -105,15 +105,15 @@ def print_history(mounts: list[MeasuredMount], *, as_json: bool) -> bool:
     series: dict[tuple[str, str, str], list[MeasuredMount]] = {}
     for mount in sorted(mounts, key=lambda each: each.start):
         series.setdefault(mount.name, []).append(mount)
-    movements = [movement for history in series.values() for movement in find_movements(history)]
+    movements = [movement for one in series.values() for movement in find_movements(one)]
     if as_json:
         data = {"mounts": [_as_dict(mount) for mount in mounts], "movements": [_movement_dict(m) for m in movements]}
         print(json.dumps(data))
         return any(movement.is_confirmed for movement in movements)
-    for (parent, child, sources), history in series.items():
+    for (parent, child, sources), one in series.items():
         print(printable(f"{parent} -> {child}, by {sources}:"))
-        for mount in history:
-            print(printable(f"  {_day(mount)}  {_line(mount, history[0])}  {PurePath(mount.recording).name}"))
+        for mount in one:
+            print(printable(f"  {_day(mount)}  {_line(mount, one[0])}  {PurePath(mount.recording).name}"))
     for movement in movements:
         print(printable(_sentence(movement)))
     if not movements:

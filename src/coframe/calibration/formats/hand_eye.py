@@ -36,11 +36,11 @@ def read_hand_eye(document: Place) -> Rig:
     child = parameters["tracking_base_frame"].text()
     if "transform" in document:
         place = document["transform"]
-        translation, rotation = place["translation"].fields("x y z"), place["rotation"].fields("x y z w")
+        translation, turn = place["translation"].fields("x y z"), place["rotation"].fields("x y z w")
     else:
         place = document["transformation"]
-        translation, rotation = place.fields("x y z"), place.fields("qx qy qz qw")
-    mount = place.pose(translation, rotation).replace(target=parent, source=child)
+        translation, turn = place.fields("x y z"), place.fields("qx qy qz qw")
+    mount = place.pose(translation, turn).replace(target=parent, source=child)
     return Rig((mount,), format="easy_handeye2" if "transform" in document else "easy_handeye", convention=CONVENTION)
 
 
@@ -51,7 +51,7 @@ def hand_eye_text(rig: Rig) -> str:
         CalibrationError: There are several mounts.
     """
     if len(rig.transforms) != 1:
-        raise CalibrationError(f"easy_handeye2 stores one mount, but the calibration has {len(rig.transforms)}")
+        raise CalibrationError(f"easy_handeye2 has one mount, and the calibration has {len(rig.transforms)}")
     (mount,) = rig.transforms
     on_base = any(word in str(mount.target) for word in ("base", "world", "map", "odom"))
     base, effector = (json.dumps(mount.target if each else "") for each in (on_base, not on_base))

@@ -88,8 +88,8 @@ def _read_raw_cameras(document: Place, mounts: list[Transform], cameras: dict[st
         lens = ("plumb_bob", document[f"D_{number}"].numbers(5))
         cameras[frame] = camera(place, (int(size[0]), int(size[1])), k[[0, 1, 0, 1], [0, 1, 2, 2]], lens, frame, others)
         if int(number):
-            rotation, at = document[f"R_{number}"].numbers(9).reshape(3, 3), document[f"T_{number}"]
-            motion = at.rigid(rotation, at.numbers(3))
+            turn, at = document[f"R_{number}"].numbers(9).reshape(3, 3), document[f"T_{number}"]
+            motion = at.rigid(turn, at.numbers(3))
             mounts.append(motion.inverse().replace(target="cam0", source=frame))
 
 
@@ -127,12 +127,12 @@ def kitti_text(rig: Rig) -> str:
     for number, (name, model) in enumerate(rig.cameras.items()):
         if any(model.lens.coefficients):
             raise CalibrationError(
-                f"calib.txt of KITTI supports only rectified cameras, and {name} has a distortion",
+                f"calib.txt of KITTI has rectified cameras only, and {name} has a distortion",
                 hint="Rectify the images, and write the calibration of the rectified cameras.",
             )
         pose = rig.lookup(first, model.frame) if number else Transform()
         if np.abs(pose.matrix[:3, :3] - np.eye(3)).max() > _MAX_TURN:
-            raise CalibrationError(f"calib.txt of KITTI supports only parallel cameras, and {name} is rotated")
+            raise CalibrationError(f"calib.txt of KITTI has parallel cameras only, and {name} is turned")
         p = np.column_stack([model.k, -model.k @ pose.translation])
         lines.append(f"P{number}: {_words(p)}")
     if "velo" in rig.frames:

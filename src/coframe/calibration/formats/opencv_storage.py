@@ -88,7 +88,7 @@ def opencv_text(rig: Rig) -> str:
     models = list(rig.cameras.items())
     if len(models) not in {1, 2}:
         raise CalibrationError(
-            f"an OpenCV file contains one or two cameras, but the calibration has {len(models)}",
+            f"a file of OpenCV has one camera or two, and the calibration has {len(models)}",
             hint=f"Choose one with `coframe calib convert --camera NAME`: {', '.join(rig.cameras)}." if models else "",
         )
     first = models[0][1]
