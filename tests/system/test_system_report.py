@@ -89,10 +89,10 @@ def test_a_network_without_multicast(network):
 
 
 def test_report_in_a_notebook(monkeypatch):
-    monkeypatch.setenv("COFRAME_DDS_LIBRARY", "/absent/<b>")
+    monkeypatch.setenv("ROS_DOMAIN_ID", "<b>")  # A test before this one can have loaded the DDS library.
     report = collect(listen=0.0)
     text = report._repr_html_()
-    assert "The DDS library /absent/&lt;b&gt; in COFRAME_DDS_LIBRARY does not exist." in text
+    assert "ROS_DOMAIN_ID is &#x27;&lt;b&gt;&#x27;: a domain ID is an integer from 0 to 232." in text
     assert "Environment variables" in text
     assert "no ROS 2 is sourced" in text
 
