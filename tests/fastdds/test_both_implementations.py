@@ -134,8 +134,14 @@ def test_the_first_request_of_a_client_reaches_a_server_on_cyclone_dds(domain_id
             eventually(lambda requests=requests: requests.matched)
             header = RequestHeader(requests.client_id, 1)
             requests.write(join(header, codec.serialize(add.Request(a=number, b=1))))
+            # The subscription receives the replies to all clients of the service.
             received = []
-            eventually(lambda replies=replies, received=received: received.extend(replies.take_messages()) or received)
+
+            def receive(replies=replies, received=received, client=requests.client_id):
+                received.extend(message for message in replies.take_messages() if message.header.client == client)
+                return received
+
+            eventually(receive)
             assert codec.deserialize(received[0].cdr, add.Response).sum == number + 1
     finally:
         participant.close()
