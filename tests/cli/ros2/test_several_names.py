@@ -106,6 +106,27 @@ def test_echo_of_several_fields_and_of_elements(run):
     assert run("topic", "echo", "/point", "--once", "--clear", "--field", "point.x").endswith("1.5\n---\n")
 
 
+@pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="stops a process")
+def test_publishing_to_a_subscription_that_does_not_respond(graph):
+    words = ["/commands", "std_msgs/msg/String", "{data: lost}", "--times", "3", "--rate", "4", "-w", "1"]
+    process = subprocess.Popen(
+        [sys.executable, "-m", "coframe.cli", "topic", "pub", *words],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, **graph.environment},
+    )
+    while "publishing #1" not in process.stdout.readline():
+        assert process.poll() is None
+    graph.send_signal(signal.SIGSTOP)
+    try:
+        _, errors = process.communicate(timeout=60)
+    finally:
+        graph.send_signal(signal.SIGCONT)
+    assert process.returncode == 0
+    assert errors == "coframe: not all subscriptions confirmed all messages within 3 s\n"
+
+
 def test_publishing_the_messages_of_a_file(run, tmp_path):
     file = tmp_path / "messages.yaml"
     file.write_text("data: first\n---\ndata: second\n---\n")

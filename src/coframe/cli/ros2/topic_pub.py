@@ -11,7 +11,7 @@ import click
 
 from coframe.cli.declaration import PATH, argument
 from coframe.cli.options import NonNegativeDuration, topic_name
-from coframe.cli.output import fail
+from coframe.cli.output import fail, warn
 from coframe.cli.ros2.graph import (
     ENDPOINT_TIMEOUT,
     NO_WAIT,
@@ -139,7 +139,8 @@ def pub(
         publisher = node.create_publisher(kind, topic_name, qos)
         _wait_for_subscriptions(publisher, (1 if count else 0) if wait_matching is None else wait_matching)
         _publish(node, publisher, messages, min(1.0 / rate, _MAX_PERIOD), print_every, count)
-        publisher.wait_for_all_acked(Duration(seconds=ENDPOINT_TIMEOUT))  # of a busy machine
+        if not publisher.wait_for_all_acked(Duration(seconds=ENDPOINT_TIMEOUT)):
+            warn(f"not all subscriptions confirmed all messages within {ENDPOINT_TIMEOUT:g} s")
         time.sleep(keep_alive.seconds)
 
 
