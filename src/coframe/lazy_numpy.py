@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> Any:
+        # Programs that look at all modules, such as test frameworks, ask for __path__ or __warningregistry__.
+        if name.startswith("__"):
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         value = getattr(importlib.import_module("numpy"), name)
         globals()[name] = value  # The next use does not come here.
         return value

@@ -77,6 +77,7 @@ def test_names_of_numpy_are_found_at_their_first_use():
 import sys
 import coframe.lazy_numpy as np
 assert not np.is_array([1.0]) and not np.is_scalar(1.0) and "numpy" not in sys.modules
+assert not hasattr(np, "__path__") and not hasattr(np, "__warningregistry__") and "numpy" not in sys.modules
 assert np.is_array(np.zeros(2)) and np.is_scalar(np.float32(1)) and not np.is_scalar(1.0)
 import numpy
 assert np.ndarray is numpy.ndarray
