@@ -121,7 +121,9 @@ def _install_hooks() -> None:
 def _uninstall_hooks() -> None:
     global _previous_hooks  # noqa: PLW0603
     if _previous_hooks is not None and sys.excepthook is _excepthook:
-        sys.excepthook, threading.excepthook, sys.unraisablehook = _previous_hooks
+        sys.excepthook, threading.excepthook, unraisable_hook = _previous_hooks
+        if sys.unraisablehook is _unraisable_hook:  # Test frameworks replace it for a while.
+            sys.unraisablehook = unraisable_hook
         _previous_hooks = None
 
 
