@@ -314,13 +314,13 @@ class _ReadState:
         return RecordedTopic(name, main.channel.type, len(received), rate, main.channel.encoding)
 
 
-def _rate(receive_timetimes: NDArray[np.int64], span: tuple[int, int] | None) -> float:
+def _rate(receive_times: NDArray[np.int64], span: tuple[int, int] | None) -> float:
     """Return the rate of messages in Hz, or 0 for a single burst, such as the static transforms at the start."""
-    elapsed = int(receive_timetimes[-1]) - int(receive_timetimes[0]) if len(receive_timetimes) else 0
+    elapsed = int(receive_times[-1]) - int(receive_times[0]) if len(receive_times) else 0
     if span is None or elapsed <= 0:
         return 0.0
-    is_burst = elapsed < time.SECOND and (len(receive_timetimes) == 2 or elapsed < _BURST_SHARE * (span[1] - span[0]))
-    return 0.0 if is_burst else (len(receive_timetimes) - 1) * time.SECOND / elapsed
+    is_burst = elapsed < time.SECOND and (len(receive_times) == 2 or elapsed < _BURST_SHARE * (span[1] - span[0]))
+    return 0.0 if is_burst else (len(receive_times) - 1) * time.SECOND / elapsed
 
 
 def _is_remote(storage: Storage) -> bool:

@@ -147,9 +147,9 @@ class TransformCollector:
         transforms = self._namespaces.setdefault(namespace, _NamespaceTransforms())
         buffer = transforms.static if take.static else transforms.dynamic
 
-        def ingest(receive_timetimes: NDArray[np.int64], messages: Slices) -> None:
+        def ingest(receive_times: NDArray[np.int64], messages: Slices) -> None:
             if self._on_transforms is not None:
-                self._on_transforms(channel, receive_timetimes, messages)
+                self._on_transforms(channel, receive_times, messages)
             if take.names_begin_with_slash(messages):
                 self._problems.add(f"{channel.topic}: frame names begin with '/'; the slash is removed, as in tf2", 0)
             damaged, reason = take(buffer, messages)

@@ -9,7 +9,7 @@ from decimal import Context, Decimal
 from fractions import Fraction
 from typing import Final
 
-# Smaller numbers are below the normal ones, also if they are rounded to 53 bits.
+# Smaller numbers are below the normal ones, even after rounding to 53 bits.
 _NORMAL: Final = Fraction(sys.float_info.min) - Fraction(1, 2**1076)
 _DECIMAL_NORMAL: Final = Context(prec=1200).divide(Decimal(_NORMAL.numerator), Decimal(_NORMAL.denominator))
 
@@ -22,9 +22,14 @@ def of_decimal(text: str, value: float) -> bool:
     return number != Decimal(value).copy_abs() and number < _DECIMAL_NORMAL
 
 
-def of_hexadecimal(found: re.Match[str], value: float) -> bool:
-    """Return the same for a hexadecimal number, of which the groups are the digits and the exponent."""
-    whole, fraction, exponent = found.groups()
+def of_hexadecimal(match: re.Match[str], value: float) -> bool:
+    """Return the same for a hexadecimal number.
+
+    Args:
+        match: Its groups are the digits before and after the point, and the exponent.
+        value: The number as a float.
+    """
+    whole, fraction, exponent = match.groups()
     mantissa = (whole + fraction).strip("0")
     if not value:
         return bool(mantissa)

@@ -90,20 +90,20 @@ def edge_cause(parent: str, child: str, edges: Iterable[tuple[str, str]], known:
     return ""
 
 
-def quaternion_values(quaterniond: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
+def quaternion_values(quaternion: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
     """Return the values of a Quaternion message in the order x, y, z, w."""
-    return np.array([quaterniond.x, quaterniond.y, quaterniond.z, quaterniond.w])
+    return np.array([quaternion.x, quaternion.y, quaternion.z, quaternion.w])
 
 
-def pose_cause(pose: Transform, quaterniond: Any, expected: Transform) -> str:
+def pose_cause(pose: Transform, quaternion: Any, expected: Transform) -> str:
     """Return the mistake in a published pose, or in the length of its quaternion.
 
     Args:
         pose: The published pose, normalized.
-        quaterniond: The Quaternion message of the published pose.
+        quaternion: The Quaternion message of the published pose.
         expected: The correct pose.
     """
-    values = quaternion_values(quaterniond)
+    values = quaternion_values(quaternion)
     length = float(np.linalg.norm(values))
     if length == 0.0:
         return NO_ROTATION_VALUES

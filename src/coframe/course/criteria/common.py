@@ -197,9 +197,9 @@ def transforms_on_tf(messages: list[Received], latched_messages: list[Received])
     return latched_messages or messages
 
 
-def norm_of(quaterniond: Any) -> float:
+def norm_of(quaternion: Any) -> float:
     """Return the length of a Quaternion message."""
-    return float(np.linalg.norm([quaterniond.x, quaterniond.y, quaterniond.z, quaterniond.w]))
+    return float(np.linalg.norm([quaternion.x, quaternion.y, quaternion.z, quaternion.w]))
 
 
 def read_edge(message: Any) -> Transform:
