@@ -364,6 +364,15 @@ def test_saving_an_unchanged_file_changes_nothing(change):
     assert yaml.safe_load(config.merged(config.description()["displays"], {}, {}).text()) == document
 
 
+def test_a_history_without_a_limit_is_listed_as_ignored():
+    topic = {"Value": "/scan", "Depth": 5, "History Policy": "Keep All"}
+    display = {"Class": "rviz_default_plugins/LaserScan", "Name": "Front", "Topic": topic}
+    [part] = RvizConfig({"Visualization Manager": {"Displays": [display]}}).description()["ignored"]
+    assert (part["path"], part["name"], part["value"]) == ("Front", "Topic/History Policy", "Keep All")
+    topic["History Policy"] = "Keep Last"
+    assert RvizConfig({"Visualization Manager": {"Displays": [display]}}).description()["ignored"] == []
+
+
 def test_defaults_of_rviz_are_not_listed_as_ignored():
     assert RvizConfig(full_file()).description()["ignored"] == []
 

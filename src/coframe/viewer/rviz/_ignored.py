@@ -31,6 +31,8 @@ _KEYS_WITHOUT_EFFECT = frozenset(
     }
     | {"Queue Size", "Unreliable", "Transport Hint", "Selectable", "QoS", "Filter size", "Show Joints", "Expand Joint"}
 )
+# A subscription of the viewer keeps as many messages as the depth says.
+_LIMITED_HISTORIES = ("Keep Last", "System Default")
 _VIEW_KEYS_READ = {
     "Orbit": {"Distance", "Focal Point", "Pitch", "Yaw"},
     "XYOrbit": {"Distance", "Focal Point", "Pitch", "Yaw"},
@@ -63,6 +65,8 @@ def ignored_options(
     defaults = DISPLAY_DEFAULTS.get(name, {})
     for key, value in iterate_leaves(options):
         first = key.partition("/")[0]
+        if key == "Topic/History Policy" and value not in _LIMITED_HISTORIES:
+            yield _part(path, key, value)
         if key in known or first in _KEYS_READ_ELSEWHERE or first in _KEYS_WITHOUT_EFFECT:
             continue
         if first == "Links" and not _link_differs(key, value):
