@@ -56,7 +56,7 @@ build-split: $(STAMP) ## compile each source file of the native core separately,
 demo: $(DEMO_STAMP) ## show the lab's moving transform tree, live in the browser and the terminal
 	@$(BIN)/coframe demo $(ARGS)
 
-test: $(STAMP) ## run the test suite (about six minutes on two cores)
+test: $(STAMP) ## run the test suite (six to seven minutes on two cores)
 	$(PYTEST) --numprocesses 6 --dist loadfile --no-loadscope-reorder $(ARGS)
 
 test-browser: $(STAMP) ## run the tests that look at the viewer's page in Chromium (four minutes on two cores)
